@@ -175,11 +175,12 @@ const services: Services = {
   frameBoth: () => stage?.frameBoth(),
   stepCamera: (turn, factor) => stage?.stepCamera(turn, factor),
   ...createDownloads(store, {
-    openVideoStage: stage && ((size) => openCamera(stage, store, size, createOffscreenStage)),
+    openVideoStage: stage && ((size, begin) => openCamera(stage, store, size, begin, createOffscreenStage)),
     openBesideVideo: () => {
       const shown = videoTrack.video;
       return stage && shown
-        ? (size) => openBeside(size, shown, (half) => openCamera(stage, store, half, createOffscreenStage))
+        ? (size, begin) =>
+            openBeside(size, shown, (half) => openCamera(stage, store, half, begin, createOffscreenStage))
         : null;
     },
     stageSize: () => stage?.pictureSize() ?? null,

@@ -3,7 +3,7 @@ import type { PictureSize } from './common/picture';
 import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { combineDisposers } from './ui/widgets/dom';
-import type { VideoStage } from './ui/download/downloads';
+import type { VideoStage } from './ui/download/video-stage';
 import { coarseMotion, earlierMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import type { AppState } from './ui/store/state';
 import { type Store, watch, watchAll, type Watched } from './ui/store/store';
@@ -160,13 +160,16 @@ export function leaveRoomForControls(stage: Stage, store: Store): () => void {
 }
 
 /**
- * Opens an offscreen stage for a video: it shows the finished dance that `from` shows now, from its start, and does not
- * follow later changes.
+ * Opens an offscreen stage for a video or a picture: it shows the finished dance that `from` shows now, as that frames it,
+ * and does not follow later changes.
+ *
+ * @param begin moment of the first picture, seconds
  */
 export async function openCamera(
   from: Stage,
   store: Store,
   size: PictureSize,
+  begin: number,
   createStage: typeof createOffscreenStage,
 ): Promise<VideoStage> {
   const stage = createStage(from, size);
@@ -177,13 +180,13 @@ export async function openCamera(
     stage.setEarlier(null);
     const framing = from.framing();
     await stage.ready();
-    stage.setTime(0);
+    stage.setTime(begin);
     stage.frameAs(framing);
   } catch (error) {
     stage.dispose();
     throw error;
   }
-  let before = 0;
+  let before = begin;
   return {
     canvas: stage.canvas,
     drawAt: (seconds) => {

@@ -102,7 +102,22 @@ it('saves the finished dance as a video while a part of the next one is on the s
   const drawn: Dancers[] = [];
   const stage = stageThatCalls((shown) => drawn.push(shown));
   // A stage for a video has a canvas of its own, which Node has not: the stage itself takes its place.
-  const same = (from: Stage) => from as ReturnType<Parameters<typeof openCamera>[3]>;
-  await openCamera(stage, store, { width: 640, height: 360 }, same);
+  const same = (from: Stage) => from as ReturnType<Parameters<typeof openCamera>[4]>;
+  await openCamera(stage, store, { width: 640, height: 360 }, 0, same);
   expect(drawn[0]?.reactor).toBe(reaction.motion);
+});
+
+it('frames a picture at its moment, to which no time has led', async () => {
+  const store = change.createAppStore('dark');
+  store.setState({ ...initialState('dark'), leader: dancer });
+  const calls: unknown[] = [];
+  const stage = new Proxy({} as Stage, {
+    get: (_, name) =>
+      name === 'then' ? undefined : (...values: unknown[]) => calls.push([name, ...values]) && undefined,
+  });
+  const same = (from: Stage) => from as ReturnType<Parameters<typeof openCamera>[4]>;
+  const camera = await openCamera(stage, store, { width: 640, height: 360 }, 12.5, same);
+  await camera.drawAt(12.5);
+  expect(calls).toContainEqual(['setTime', 12.5]);
+  expect(calls.at(-1)).toEqual(['drawAt', 12.5, 0]);
 });

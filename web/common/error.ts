@@ -57,6 +57,7 @@ export type ErrorCode =
   | 'nothing-to-write'
   | 'video-unsupported'
   | 'video-failed'
+  | 'picture-failed'
   | 'sound-failed'
   // Files of a study.
   | 'not-a-study'

@@ -4,6 +4,7 @@ import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { probe } from '../support/ffprobe';
 import { demoSettings as settings, serveDemo } from '../support/made-demo';
+import { rested } from '../support/stage-rest';
 import { openWritten } from '../support/written-video';
 
 const FRAMES = 24;
@@ -120,6 +121,61 @@ test('a video has every frame and the song, and the stage is unchanged', async (
   ]);
   expect(await app.onScreen()).toEqual(before);
   expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
+});
+
+/** Shares of warm and cool pixels, and the middles of both as shares of width and height. */
+function coloursOf(page: Page, png: Buffer): Promise<Record<'warm' | 'cool', [number, number, number]>> {
+  return page.evaluate(async (bytes) => {
+    const png = Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0));
+    const picture = await createImageBitmap(new Blob([png]));
+    const { width, height } = picture;
+    const context = new OffscreenCanvas(width, height).getContext('2d')!;
+    context.drawImage(picture, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    const found: Record<'warm' | 'cool', [number, number, number]> = { warm: [0, 0, 0], cool: [0, 0, 0] };
+    for (let at = 0; at < width * height; at++) {
+      const [red = 0, , blue = 0] = data.subarray(4 * at);
+      const sums = red >= 90 && red >= 1.3 * blue ? found.warm : blue >= 1.3 * red ? found.cool : null;
+      [1, (at % width) / width, Math.floor(at / width) / height].forEach(
+        (value, i) => sums && (sums[i]! += value),
+      );
+    }
+    for (const sums of [found.warm, found.cool]) {
+      for (const i of [1, 2]) sums[i]! /= sums[0];
+      sums[0] /= width * height;
+    }
+    return found;
+  }, png.toString('base64'));
+}
+
+test('a picture shows the moment of the stage as its camera sees it', async ({ page }) => {
+  await page.setViewportSize({ width: 900, height: 820 });
+  const app = await openMenu(page, 60);
+  await page.keyboard.press('Escape');
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await app.until(({ playback }) => playback.playing);
+  await page.keyboard.press('Space');
+  await page.keyboard.press('End');
+  // From the side and near: nothing that a stage would show by itself.
+  await page.evaluate('window.reactdance.stage.stepCamera(1, 0.8)');
+  await rested(page);
+  const stage = await page.locator('.stage canvas').screenshot();
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+  const coming = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save picture' }).click();
+  const download = await coming;
+  expect(download.suggestedFilename()).toBe(`${PREFIX}_at2.0s_stage.png`);
+  await expect(page.getByRole('region', { name: 'Video and picture' })).toContainText(/Saved, \d+ KB/);
+  const [shown, saved] = [
+    await coloursOf(page, stage),
+    await coloursOf(page, await readFile(await download.path())),
+  ];
+  // Words on the stage have the dancers' colours too, mostly the reactor's.
+  const [share, x, y] = shown.cool;
+  expect(Math.abs(saved.cool[0] / share - 1)).toBeLessThan(0.1);
+  expect(Math.abs(saved.cool[1] - x)).toBeLessThan(0.02);
+  expect(Math.abs(saved.cool[2] - y)).toBeLessThan(0.02);
+  expect(saved.warm[0]).toBeGreaterThan(0.003);
 });
 
 test('the sound of a video begins where the song was shifted to', async ({ page }) => {

@@ -2,7 +2,7 @@ import { type Role, otherRole } from '../../common/role';
 import { atFrameRate, type Dance } from '../../export/client';
 import { withLevelHead } from '../../motion/skeleton/level-head';
 import { generatedRole } from '../store/roles';
-import { type FileNameParts, videoFileName } from './file-name';
+import { type FileNameParts, pictureFileName, videoFileName } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
 import type { AppState, DancerSelection, Saved } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
@@ -24,6 +24,13 @@ export function savedVideo(state: AppState, container: string): Saved | null {
   const { saved, download } = state;
   const named = fileNameParts(state);
   return named && saved?.name === videoFileName(named, download.size, container) ? saved : null;
+}
+
+/** The file that was written last, if it is the picture of this moment of the reaction in the chosen size. */
+export function savedPicture(state: AppState): Saved | null {
+  const { saved, download, playback } = state;
+  const named = fileNameParts(state);
+  return named && saved?.name === pictureFileName(named, download.size, playback.time) ? saved : null;
 }
 
 /** The role of the generated dancer that would be written. */

@@ -1,6 +1,7 @@
 import type { PictureSize } from '../../common/picture';
 import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
 import { fileNameParts, savedVideo } from './dance';
+import { createDownloadPicture } from './download-picture';
 import { textButton } from '../widgets/button';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
@@ -12,7 +13,7 @@ import type { Services } from '../store/services';
 import type { AppState, VideoProgress } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 
-/** Part of the download menu: the video of the stage, its size and its progress. */
+/** Part of the download menu: the video of the stage, its size and its progress, and a picture of the same size. */
 export function createDownloadVideo(
   store: Store,
   services: Services,
@@ -34,14 +35,16 @@ export function createDownloadVideo(
   ];
   const beside = createBeside(store, services);
   const progress = createProgress();
+  const picture = createDownloadPicture(services);
   const part = el(
     'section',
-    { class: 'video', attributes: { 'aria-label': 'Video' } },
+    { class: 'video', attributes: { 'aria-label': 'Video and picture' } },
     head.root,
     sizeRow,
     beside.root,
     ...captions,
     progress.root,
+    picture.root,
   );
 
   const show = (state: AppState): void => {
@@ -51,6 +54,7 @@ export function createDownloadVideo(
     beside.show(state);
     sizes.show(state.download.size);
     progress.show(state.videoProgress);
+    picture.show(state);
     if (focused instanceof HTMLElement && !focused.offsetParent) head.focus(state);
   };
   let lastRequest = 0;
@@ -76,6 +80,7 @@ export function createDownloadVideo(
           state.footLock,
           state.download,
           state.saved,
+          state.writing,
         ],
         show,
       ),

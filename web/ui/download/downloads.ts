@@ -16,36 +16,30 @@ import {
   savedChanged,
   writingChanged,
 } from '../store/actions/download';
-import { motionFileName, videoFileName } from './file-name';
+import { motionFileName, pictureFileName, videoFileName } from './file-name';
 import { isAbort, savingProblem } from '../store/problems';
 import { canShare, saveFile, shareFile } from './save-and-share';
 import { songStart } from '../store/song-shift';
 import type { Services } from '../store/services';
+import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
+import { type OpenStage, pictureOf } from './video-stage';
 import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
 import { AppError } from '../../common/error';
 
-/** A stage that draws the dance, as it was when the stage was opened, for the frames of a video. */
-export interface VideoStage {
-  readonly canvas: HTMLCanvasElement;
-  /** Draws the dance at `seconds`; times ascend. */
-  readonly drawAt: (seconds: number) => void | Promise<void>;
-  readonly dispose: () => void;
-}
-
 /** What the downloads need of the rest of the page. */
 interface DownloadTools {
-  /** Opens a stage for a video, framed as the one on the page; null without a stage. */
-  readonly openVideoStage: ((size: PictureSize) => Promise<VideoStage>) | null;
+  /** Null without a stage. */
+  readonly openVideoStage: OpenStage | null;
   /** The same with the leader's video in the other half of the picture; null without such a video. */
-  readonly openBesideVideo: () => ((size: PictureSize) => Promise<VideoStage>) | null;
+  readonly openBesideVideo: () => OpenStage | null;
   readonly stageSize: () => PictureSize | null;
 }
 
 type Downloads = Pick<
   Services,
-  'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'videoSize'
+  'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'savePicture' | 'shareSaved' | 'videoSize'
 >;
 
 type SaveFile = typeof saveFile;
@@ -55,7 +49,7 @@ const PROGRESS_INTERVAL_MS = 400;
 /** Size of a video as on stage where there is no stage. */
 const FALLBACK_SIZE: PictureSize = { width: 1280, height: 720 };
 
-/** Writes motions and videos to files. A failure is reported as a problem and changes nothing else. */
+/** Writes motions, videos and pictures to files. A failure is reported as a problem and changes nothing else. */
 export function createDownloads(store: Store, tools: DownloadTools): Downloads {
   let lastSaved: File | null = null;
   const save: SaveFile = (file, name) => {
@@ -68,6 +62,7 @@ export function createDownloads(store: Store, tools: DownloadTools): Downloads {
     planVideo: () => planFor(store, tools),
     saveMotion: (format) => void saveMotion(store, format, save),
     ...createVideoJob(store, tools, save),
+    savePicture: () => void savePicture(store, tools, save),
     shareSaved: () => {
       if (!lastSaved) return;
       shareFile(lastSaved).catch((error: unknown) => {
@@ -93,6 +88,28 @@ async function saveMotion(store: Store, format: MotionFormat, save: SaveFile): P
   } finally {
     apply(store, writingChanged(null));
   }
+}
+
+/** Saves the moment that the stage shows as a PNG, in the size and with the credit of a video. */
+async function savePicture(store: Store, tools: DownloadTools, save: SaveFile): Promise<void> {
+  const state = store.getState();
+  const named = fileNameParts(state);
+  const open = stageOf(state, tools);
+  if (!named || !open || state.writing) return;
+  apply(store, writingChanged('png'));
+  try {
+    const png = await pictureOf(open, videoSize(store, tools), state);
+    save(png, pictureFileName(named, state.download.size, state.playback.time));
+  } catch (error) {
+    apply(store, problemShown(savingProblem(error)));
+  } finally {
+    apply(store, writingChanged(null));
+  }
+}
+
+/** How the stage of a video or a picture is opened: with the leader's video beside the dance if that is chosen. */
+function stageOf({ download }: AppState, tools: DownloadTools): OpenStage | null {
+  return (download.beside ? tools.openBesideVideo() : null) ?? tools.openVideoStage;
 }
 
 /** Starts and cancels the one video that may be written at a time. */
@@ -137,7 +154,8 @@ async function writeDance(
 ): Promise<void> {
   const state = store.getState();
   const named = fileNameParts(state);
-  if (!named || !tools.openVideoStage) return;
+  const open = stageOf(state, tools);
+  if (!named || !open) return;
   const size = videoSize(store, tools);
   const sound = soundOf(store);
   const { fps, frames } = named.inputs.leader.file.clip;
@@ -145,8 +163,7 @@ async function writeDance(
   const plan = await planVideo(size, sound !== null);
   signal.throwIfAborted();
   if (!plan) throw unsupported();
-  const besideVideo = state.download.beside ? tools.openBesideVideo() : null;
-  const stage = await (besideVideo ?? tools.openVideoStage)(size);
+  const stage = await open(size, 0);
   try {
     const { theme, download } = state;
     const picture = captioned(stage.canvas, download, theme);

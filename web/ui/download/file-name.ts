@@ -36,6 +36,11 @@ export function videoFileName(named: FileNameParts, size: string, container: str
   return `${[...inputParts(named.inputs), ...settingsParts(named), size].join('_')}.${container}`;
 }
 
+/** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_at12.4s_1080p.png`. */
+export function pictureFileName(named: FileNameParts, size: string, seconds: number): string {
+  return `${[...inputParts(named.inputs), ...settingsParts(named), `at${seconds.toFixed(1)}s`, size].join('_')}.png`;
+}
+
 function inputParts({ song, leader }: Inputs): string[] {
   return [song ? fileSlug(song.name, 'song') : 'no-song', fileSlug(leader.name, 'leader')];
 }

@@ -120,6 +120,8 @@ export interface Services {
   readonly planVideo: () => Promise<VideoPlan | null>;
   /** Renders the dance as a video of the chosen size and hands it to the browser's downloads. */
   readonly saveVideo: () => void;
+  /** Draws the moment that the stage shows as a PNG of the chosen size and hands it to the browser's downloads. */
+  readonly savePicture: () => void;
   /** Whether the leader is from a video that can be shown beside the dance. */
   readonly hasLeaderVideo: () => boolean;
   readonly cancelVideo: () => void;

@@ -281,8 +281,8 @@ export interface AppState {
   readonly reference: Reference | null;
   readonly job: Job | null;
   readonly download: DownloadChoice;
-  /** The format in which a motion is being written. */
-  readonly writing: MotionFormat | null;
+  /** The format in which a motion or a picture is being written. */
+  readonly writing: MotionFormat | 'png' | null;
   readonly videoProgress: VideoProgress | null;
   /** The file that was handed to the browser's downloads last. */
   readonly saved: Saved | null;

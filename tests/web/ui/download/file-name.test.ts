@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { motionFileName, videoFileName } from '../../../../web/ui/download/file-name';
+import { motionFileName, pictureFileName, videoFileName } from '../../../../web/ui/download/file-name';
 import { uniformGuidance, leader, song } from '../../support/made-state';
 
 const settings = {
@@ -50,6 +50,12 @@ test('a leader alone is named after song and leader', () => {
 test('a video’s name ends with its size', () => {
   expect(videoFileName({ inputs, footLock: true, take: '' }, '1080p', 'webm')).toBe(
     'descarga_leader-0412_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm',
+  );
+});
+
+test('a picture’s name ends with its moment and size', () => {
+  expect(pictureFileName({ inputs, footLock: true, take: '' }, '1080p', 12.34)).toBe(
+    'descarga_leader-0412_s1204_c1.20-f0.60-m3.00_footlock_at12.3s_1080p.png',
   );
 });
 
