@@ -55,6 +55,18 @@ const preloadApp: Plugin = {
   },
 };
 
+/** Names the picture that messengers show beside a link; they need its whole address, of the site in SITE_URL. */
+const linkPicture: Plugin = {
+  name: 'link-picture',
+  apply: 'build',
+  transformIndexHtml: () => {
+    const site = process.env['SITE_URL'];
+    if (!site) return [];
+    const content = new URL('site/link.jpg', site).href;
+    return [{ tag: 'meta', attrs: { property: 'og:image', content }, injectTo: 'head' }];
+  },
+};
+
 /** Brotli copies of the built files. */
 const brotli: Plugin = {
   name: 'brotli',
@@ -71,7 +83,16 @@ const { page: licencesOfPage, worker: licencesOfWorker } = licences();
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [manifestEntry(), policyElement, preloadFont, preloadApp, licencesOfPage, serviceWorker, brotli],
+  plugins: [
+    manifestEntry(),
+    policyElement,
+    preloadFont,
+    preloadApp,
+    linkPicture,
+    licencesOfPage,
+    serviceWorker,
+    brotli,
+  ],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
   worker: {

@@ -36,6 +36,18 @@ for (const [name, width, height] of [
     expect(await page.evaluate<number>('document.documentElement.scrollWidth')).toBeLessThanOrEqual(width);
   });
 
+test('the browser can install the page', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  const session = await page.context().newCDPSession(page);
+  const { errors, url } = await session.send('Page.getAppManifest');
+  expect(new URL(url).pathname).toBe('/site/web-app.json');
+  expect(errors).toEqual([]);
+  // Tests run in a private window.
+  const { installabilityErrors } = await session.send('Page.getInstallabilityErrors');
+  expect(installabilityErrors.map(({ errorId }) => errorId)).toEqual(['in-incognito']);
+});
+
 test('the keys do what the list of keys says', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();

@@ -9,7 +9,7 @@ const source = fileURLToPath(new URL('../../web/offline/service-worker.ts', impo
 const SCRIPT = 'service-worker.js';
 
 /** Files that the service worker does not cache: runtime and models have caches of their own, others no page asks for. */
-const NOT_CACHED = /^models\/|\.wasm$|\.br$|\.md$|^service-worker\.js$/;
+const NOT_CACHED = /^models\/|^site\/|\.wasm$|\.br$|\.md$|^service-worker\.js$/;
 
 /** Files that are cached when they are used first: readers of motion files, and what is offered in their place. */
 const ON_USE = /^assets\/reader-|^leaders\//;
