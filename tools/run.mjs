@@ -7,6 +7,13 @@ export const root = fileURLToPath(new URL('..', import.meta.url));
 
 const windows = process.platform === 'win32';
 
+/**
+ * Windows starts npm's programs through a shell, which would cut a path at its spaces.
+ *
+ * @param {string} program
+ */
+const needsShell = (program) => windows && !path.isAbsolute(program);
+
 /** Path of the Python interpreter in the project's virtual environment. */
 export const python = path.join(root, '.venv', windows ? 'Scripts/python.exe' : 'bin/python');
 
@@ -25,7 +32,7 @@ export function run(program, args, env = {}) {
       cwd: root,
       stdio: ['ignore', 'inherit', 'inherit'],
       env: { ...process.env, ...env, PATH: search },
-      shell: windows,
+      shell: needsShell(program),
     });
     child.on('error', () => resolve(127));
     child.on('close', (code) => resolve(code ?? 1));
@@ -54,7 +61,7 @@ export async function runOrThrow(program, args, env) {
 export function outputOf(program, args) {
   return new Promise((resolve) => {
     let output = '';
-    const child = spawn(program, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'], shell: windows });
+    const child = spawn(program, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'], shell: needsShell(program) });
     child.stdout.on('data', (chunk) => (output += String(chunk)));
     child.on('error', () => resolve(undefined));
     child.on('close', (code) => resolve(code === 0 ? output.trim() : undefined));
