@@ -61,7 +61,11 @@ export async function runOrThrow(program, args, env) {
 export function outputOf(program, args) {
   return new Promise((resolve) => {
     let output = '';
-    const child = spawn(program, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'], shell: needsShell(program) });
+    const child = spawn(program, args, {
+      cwd: root,
+      stdio: ['ignore', 'pipe', 'ignore'],
+      shell: needsShell(program),
+    });
     child.stdout.on('data', (chunk) => (output += String(chunk)));
     child.on('error', () => resolve(undefined));
     child.on('close', (code) => resolve(code === 0 ? output.trim() : undefined));

@@ -1,13 +1,13 @@
 /**
  * Films the sample video that the first screen offers: one of our leaders on our own mannequin.
  *
- *     node tools/film-sample.mjs web/public/leaders/sample.webm
+ *     node tools/pictures/film-sample.mjs web/public/leaders/sample.webm
  */
 import { writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { chromium } from '@playwright/test';
-import { servePage } from './bench/built-page.mjs';
-import { findBrowser } from './browser.mjs';
+import { servePage } from '../bench/built-page.mjs';
+import { findBrowser } from '../browser.mjs';
 
 const SECONDS = 9;
 /** A phone held upright at the height of a chest; metres and pixels. */
@@ -24,12 +24,12 @@ const SHOT = {
 
 const [file] = process.argv.slice(2);
 if (!file) {
-  console.error('Usage: node tools/film-sample.mjs FILE.webm');
+  console.error('Usage: node tools/pictures/film-sample.mjs FILE.webm');
   process.exit(2);
 }
 const executablePath = await findBrowser();
 if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
-const site = await servePage(path.resolve(import.meta.dirname, '../tests/e2e/support/video-page'), {});
+const site = await servePage(path.resolve(import.meta.dirname, '../../tests/e2e/support/video-page'), {});
 const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
 try {
   const page = await browser.newPage();

@@ -2,14 +2,14 @@
  * Draws the pictures of web/public/site from the icon and the built app's demo: icons of the installed page, and the
  * picture that messengers show beside a link to it.
  *
- *     npx vite build && node tools/site-pictures.mjs
+ *     npx vite build && node tools/pictures/site-pictures.mjs
  */
 import { readFileSync, statSync } from 'node:fs';
 import path from 'node:path';
 import { chromium } from '@playwright/test';
-import { findBrowser } from './browser.mjs';
-import { root } from './run.mjs';
-import { createSite, listen } from './serve.mjs';
+import { findBrowser } from '../browser.mjs';
+import { root } from '../run.mjs';
+import { createSite, listen } from '../serve.mjs';
 
 const FOLDER = path.join(root, 'web/public/site');
 const DARK = '#16191d';

@@ -1,7 +1,7 @@
 /**
  * Makes docs/dance.webp, the looping picture of the README, from the built app's demo:
  *
- *     npx vite build && node tools/moving-picture.mjs [VIDEO]
+ *     npx vite build && node tools/pictures/moving-picture.mjs [VIDEO]
  *
  * The page writes a video of its demo, which takes minutes without a GPU; VIDEO is one that it has written before. The
  * part whose last picture is most like its first becomes the loop; its end is cross-faded with the pictures before its
@@ -12,9 +12,9 @@ import { mkdtempSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { chromium } from '@playwright/test';
-import { findBrowser } from './browser.mjs';
-import { isProgram, root } from './run.mjs';
-import { createSite, listen } from './serve.mjs';
+import { findBrowser } from '../browser.mjs';
+import { isProgram, root } from '../run.mjs';
+import { createSite, listen } from '../serve.mjs';
 
 /** Pixels. */
 const PAGE = { width: 1280, height: 800 };
