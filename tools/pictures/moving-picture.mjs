@@ -11,10 +11,8 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
-import { chromium } from '@playwright/test';
-import { findBrowser } from '../browser.mjs';
 import { isProgram, root } from '../run.mjs';
-import { createSite, listen } from '../serve.mjs';
+import { withBuiltApp } from './built-app.mjs';
 
 /** Pixels. */
 const PAGE = { width: 1280, height: 800 };
@@ -39,12 +37,7 @@ const WAIT_MS = 1_500_000;
  * @param {string} file where the video is put
  */
 async function filmDemo(file) {
-  const executablePath = await findBrowser();
-  if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
-  const site = createSite({ root: path.join(root, 'dist') });
-  const address = await listen(site, { port: 0 });
-  const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
-  try {
+  await withBuiltApp(async (browser, address) => {
     const page = await browser.newPage({ viewport: PAGE, colorScheme: 'dark', serviceWorkers: 'block' });
     page.setDefaultTimeout(WAIT_MS);
     await page.goto(address);
@@ -56,11 +49,7 @@ async function filmDemo(file) {
     const coming = page.waitForEvent('download');
     await page.getByRole('button', { name: 'Save video' }).click();
     await (await coming).saveAs(file);
-  } finally {
-    await browser.close();
-    site.close();
-    site.closeAllConnections();
-  }
+  });
 }
 
 /** @param {string[]} args */

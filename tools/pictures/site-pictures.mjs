@@ -6,10 +6,8 @@
  */
 import { readFileSync, statSync } from 'node:fs';
 import path from 'node:path';
-import { chromium } from '@playwright/test';
-import { findBrowser } from '../browser.mjs';
 import { root } from '../run.mjs';
-import { createSite, listen } from '../serve.mjs';
+import { withBuiltApp } from './built-app.mjs';
 
 const FOLDER = path.join(root, 'web/public/site');
 const DARK = '#16191d';
@@ -68,16 +66,7 @@ async function drawLink(browser, address) {
   console.log(`link.jpg: ${Math.round(statSync(file).size / 1000)} kB`);
 }
 
-const executablePath = await findBrowser();
-if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
-const site = createSite({ root: path.join(root, 'dist') });
-const address = await listen(site, { port: 0 });
-const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
-try {
+await withBuiltApp(async (browser, address) => {
   for (const [name, icon] of Object.entries(ICONS)) await drawIcon(browser, name, icon);
   await drawLink(browser, address);
-} finally {
-  await browser.close();
-  site.close();
-  site.closeAllConnections();
-}
+});
