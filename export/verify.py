@@ -38,6 +38,11 @@ ROUNDING_TOLERANCE = 0.005
 
 BLOCKS = (1, 2, 9, 75)
 
+CAPTION = (
+    "The largest difference of numbers, of the reactor's joints in metres. distance, int8, rounding: the mean distance "
+    "of joints, metres; int8 is of the graphs with products in 8 bits, rounding of weights that are stored in fewer bits."
+)
+
 
 @dataclass(frozen=True)
 class Options:
@@ -138,12 +143,12 @@ def print_now(line: str) -> None:
 
 def main(options: Options) -> None:
     results = verify(load_model(options.checkpoint), options.model, options.blocks, print_now)
-    table = Table(title="onnxruntime against PyTorch")
+    table = Table(title="onnxruntime against PyTorch", caption=CAPTION, caption_justify="left")
     for column in ("blocks", *next(iter(results.values()))):
         table.add_column(column, justify="right")
     for count, row in results.items():
         table.add_row(str(count), *(f"{value:.1e}" for value in row.values()))
-    Console().print(table)
+    Console(width=100).print(table)
 
 
 if __name__ == "__main__":

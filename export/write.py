@@ -6,6 +6,8 @@ python -m export.write --checkpoint training/checkpoints/salsa --out web/public/
 from __future__ import annotations
 
 import json
+import logging
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,7 +62,17 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     (folder / "manifest.json").write_text(text + "\n")
 
 
+def silence_libraries() -> None:
+    """Hides what torch and onnxruntime warn of while they write graphs: operators of torchvision, which is not
+    installed, names of axes that are not used, and a step before quantisation that is not taken.
+    """
+    logging.getLogger("torch.onnx").setLevel(logging.ERROR)
+    logging.getLogger().setLevel(logging.ERROR)
+    warnings.filterwarnings("ignore", message="# The axis name")
+
+
 def main(options: Options) -> None:
+    silence_libraries()
     model = load_model(options.checkpoint)
     with naming(options.checkpoint / "card.json"):
         card = make_card(read_card(options.checkpoint))
