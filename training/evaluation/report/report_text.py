@@ -70,6 +70,8 @@ def _summary(numbers: Numbers) -> Sections:
         f"seeds {', '.join(map(str, numbers['seeds']))}. Values are means over duets and seeds.",
         *conditions(numbers),
         "## Required",
+        "These limits and the targets below were set for the salsa couple that the shipped model learned from; other "
+        "dances need others.",
         _threshold_table(check_required(numbers)),
         "## Main table",
         markdown_table(["", *(label for label, _, _ in COLUMNS)], rows),
