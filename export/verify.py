@@ -40,7 +40,7 @@ BLOCKS = (1, 2, 9, 75)
 
 CAPTION = (
     "The largest difference of numbers, of the reactor's joints in metres. distance, int8, rounding: the mean distance "
-    "of joints, metres; int8 is of the graphs with products in 8 bits, rounding of weights that are stored in fewer bits."
+    "of joints, metres; int8 is of the graphs with products in 8 bits, rounding of weights stored in fewer bits."
 )
 
 

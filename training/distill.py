@@ -27,7 +27,7 @@ from training.diffusion.sampler import extrapolated_ddim
 from training.diffusion.schedule import Step, alphas_cumprod, ddim_steps
 from training.loop.options import read_duets_to_train
 from training.loop.run import Run, launch
-from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
+from training.stage2 import PREPARING, ClipOptions, duet_clips, music_of, solo_clips, validate
 
 LAYER_WEIGHTS = (1.0, 0.5)
 """Of the squared errors of the coarse layer, and of every finer one."""
@@ -63,6 +63,7 @@ def main(options: Options) -> None:
     diffusion = student_diffusion(teacher.diffusion, options.music_guidance)
     network = teacher.denoiser
     duets = read_duets_to_train(options, fabric, STRIDE * network.config.block)
+    fabric.print(PREPARING, flush=True)
     bank = music_of(options, duets)
     condition = network.config.condition
     clips = duet_clips(options, condition, duets, bank, teacher.hfsq, teacher.frame)

@@ -51,7 +51,7 @@ class Options:
     coarse: float | None = None
     """Guidance of the coarse layer, Eq. 9's s; the model's default when left out."""
     fine: float | None = None
-    """Guidance of the fine layer; the model's default when left out."""
+    """Gain of the fine layer, (1 + s) times; the model's default when left out."""
     music_guidance: float | None = None
     """Guidance weight of the music; the model's default when left out."""
     variety: float | None = None

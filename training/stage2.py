@@ -18,6 +18,9 @@ from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
 from training.loop.options import WindowOptions
 
+PREPARING = "making the music of all dances and encoding them (--music-cache keeps the music)"
+"""Printed before the first step, until which nothing else is."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ClipOptions(WindowOptions):

@@ -34,7 +34,7 @@ from training.hfsq.autoencoder import Autoencoder
 from training.loop.options import read_duets_to_train
 from training.loop.run import Run, launch
 from training.motion.skeleton import body_height
-from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
+from training.stage2 import PREPARING, ClipOptions, duet_clips, music_of, solo_clips, validate
 
 UNFAMILIAR_RATIO = 1.15
 """How much farther from the mean of training than any leader of training an unfamiliar leader is."""
@@ -73,6 +73,7 @@ def main(options: Options) -> None:
     denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
     stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
     duets = read_duets_to_train(options, fabric, STRIDE * options.denoiser.block)
+    fabric.print(PREPARING, flush=True)
     bank = music_of(options, duets)
     condition = options.denoiser.condition
     clips = duet_clips(options, condition, duets, bank, hfsq, frame)
