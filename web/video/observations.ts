@@ -1,5 +1,6 @@
 import type { Quat } from '../motion/math/quat';
 import { CameraTurn, type Circle, circleAbout, comparedSize } from './pose/camera-turn';
+import { CutFinder } from './pose/cuts';
 import { GreyReader } from './pose/grey';
 import { LANDMARK_COUNT } from './pose/landmarks';
 import type { Picture } from './pose/picture';
@@ -25,6 +26,8 @@ export interface Observations {
   readonly centre: Float32Array;
   /** rows x 4, how the camera turned from the first picture on, as `CameraTurn` has it with the usual focal length. */
   readonly turn: Float32Array;
+  /** Times of the first pictures after a cut to another place, camera or time, seconds of the video. */
+  readonly cuts: readonly number[];
   /** Greatest mean brightness of a picture without the person, 0 to 1; 1 when they were always seen. */
   readonly brightest: number;
 }
@@ -33,6 +36,7 @@ export interface Observations {
 export class Recorder {
   readonly #rows: { readonly time: number; readonly tracked: Tracked; readonly turn: Quat }[] = [];
   readonly #camera = new CameraTurn(DEFAULT_FOCAL);
+  readonly #cuts = new CutFinder();
   readonly #grey: GreyReader;
   /** Where the dancer was seen last. */
   #dancer: Circle | null = null;
@@ -48,7 +52,9 @@ export class Recorder {
   add(time: number, picture: Picture, tracked: Tracked): void {
     const longer = Math.max(this.width, this.height);
     if (tracked.landmarks) this.#dancer = circleAbout(tracked.landmarks.region, longer);
-    const turn = this.#camera.next(this.#grey.read(picture), this.#grey.size, this.#dancer);
+    const grey = { ...this.#grey.size, values: this.#grey.read(picture) };
+    if (this.#cuts.next(grey, time)) this.#camera.restart();
+    const turn = this.#camera.next(grey, this.#dancer);
     this.#rows.push({ time, tracked, turn });
     if (tracked.brightness !== null) this.#brightest = Math.max(this.#brightest ?? 0, tracked.brightness);
   }
@@ -67,6 +73,7 @@ export class Recorder {
       visibility: numbers(LANDMARK_COUNT),
       centre: numbers(2),
       turn: numbers(4),
+      cuts: this.#cuts.times,
       brightest: this.#brightest ?? 1,
     };
     this.#rows.forEach(({ tracked: { landmarks }, turn }, row) => {

@@ -12,6 +12,8 @@ import type { Picture } from './pose/picture';
 import { PersonTracker, type PersonPick } from './pose/tracker';
 import { adviceOn, confidenceOf } from './world/advice';
 import { type WorldOptions, reconstruct } from './world/reconstruct';
+import type { Part } from './world/series';
+import { adviceOnCuts, longestShot } from './world/shots';
 
 export interface ReadRequest {
   readonly file: Blob;
@@ -71,6 +73,8 @@ export interface VideoMotion {
   readonly bvh: string;
   /** Time of its first frame, seconds of the video. */
   readonly start: number;
+  /** The part of the video that was used; null is all of it. */
+  readonly used: Part | null;
   /** How far the camera was from the dancer, metres, with this focal length (see `WorldOptions`). */
   readonly camera: { readonly distance: number; readonly focal: number };
   /** How sure each frame is, 0 to 1. */
@@ -213,14 +217,17 @@ function motionSoFar(observations: Observations, options: ReadRequest['options']
   }
 }
 
+/** Where no part was chosen, of a video with cuts the longest part without one is used. */
 function solve({ observations, options }: SolveRequest): VideoMotion {
-  const result = reconstruct(observations, options);
+  const used = options.trim ?? longestShot(observations);
+  const result = reconstruct(observations, { ...options, trim: used });
   return {
     bvh: writeBvh(result.motion),
     start: result.series.start,
+    used,
     camera: { distance: result.distance, focal: options.focal },
     confidence: confidenceOf(result.series),
-    advice: adviceOn(result.series, result.flipped),
+    advice: [...adviceOnCuts(observations.cuts, used), ...adviceOn(result.series, result.flipped)],
   };
 }
 

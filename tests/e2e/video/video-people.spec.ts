@@ -166,6 +166,33 @@ test('a camera in a hand that follows the dancer does not make them walk, and th
   expect(share).toBeLessThan(1.6);
 });
 
+test('of a video with a cut the longest part is used, until another one is chosen', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const shot = { ...SHOT, cut: { at: 1.25, position: [-2, 1.2, 2], target: [0.3, 0.9, 0] } } satisfies Shot;
+  const buffer = Buffer.from(await studio.call('film', 'salsa', shot, 3.5), 'base64');
+  await studio.close();
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'edited.webm', mimeType: 'video/webm', buffer });
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
+  await expect(panel.getByText('a cut at 1.3 s. The longest part')).toBeVisible();
+  const seconds = (): Promise<number> => app.read(({ leader }) => leader!.motion.frames / 30);
+  await expect.poll(seconds).toBeCloseTo(2.2, 1);
+
+  await panel.getByText('Correct the motion', { exact: true }).click();
+  const from = panel.getByRole('spinbutton', { name: 'Use from' });
+  await expect(from).toHaveValue('1.3');
+  await from.fill('0');
+  await from.press('Tab');
+  await expect(panel.getByText('There is a cut at 1.3 s in what is used')).toBeVisible();
+  await expect.poll(seconds).toBeCloseTo(3.4, 1);
+});
+
 test('a dancer who is small in a wide picture is found, and followed by a click where someone larger is seen', async ({
   page,
   browser,

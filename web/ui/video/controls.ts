@@ -5,6 +5,8 @@ export interface Controls {
   readonly root: HTMLElement;
   /** @param span all of the video, seconds; a part of it that was chosen stays when the video is read again */
   readonly setSpan: (span: Span) => void;
+  /** @param used the part that is used while none is chosen, seconds; null is all of the video */
+  readonly setUsed: (used: Span | null) => void;
   /** @param camera where it was, as the motion has it */
   readonly setCamera: (camera: VideoMotion['camera']) => void;
 }
@@ -23,13 +25,15 @@ const FOCAL = { min: 0.3, max: 6 };
 /** Corrections of a motion from a video: height of the dancer, distance of the camera, and the part that is used. */
 export function createControls(change: (options: Partial<WorldOptions>) => void): Controls {
   let all: Span | null = null;
+  /** Whether the visitor has chosen a part. */
+  let chosen = false;
   let camera: VideoMotion['camera'] | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
   const later = (): void => {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const [from, to] = [start.valueAsNumber, end.valueAsNumber];
-      const trim = all && (from > all.start || to < all.end) ? { start: from, end: to } : null;
+      const trim = chosen ? { start: from, end: to } : null;
       const tall = height.valueAsNumber / 100;
       const focal = focalFor(distance.valueAsNumber);
       if ([from, to, tall, focal].every(Number.isFinite) && from < to) change({ height: tall, focal, trim });
@@ -47,6 +51,7 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
   const distance = number('video-distance', 0.5, 30, 0.1, 0);
   const start = number('video-start', 0, 600, 0.1, 0);
   const end = number('video-end', 0, 600, 0.1, 0);
+  for (const input of [start, end]) input.addEventListener('change', () => (chosen = true));
   const row = (label: string, unit: string, input: HTMLInputElement): HTMLElement =>
     el('label', { attributes: { for: input.id } }, label, input, el('span', { text: unit }));
   const root = el(
@@ -65,6 +70,14 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
       all = { start: Math.floor(span.start * 10) / 10, end: Math.ceil(span.end * 10) / 10 };
       start.value = String(all.start);
       end.value = String(all.end);
+    },
+    setUsed: (used) => {
+      if (!all || chosen) return;
+      // Inwards, so that no picture beyond a cut is in it.
+      start.value = String(
+        used && used.start > all.start + 0.1 ? Math.ceil(used.start * 10) / 10 : all.start,
+      );
+      end.value = String(used && used.end < all.end - 0.1 ? Math.floor(used.end * 10) / 10 : all.end);
     },
     setCamera: (found) => {
       camera = found;

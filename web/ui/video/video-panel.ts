@@ -162,6 +162,7 @@ export class VideoPanel {
     this.#root.hidden = false;
     this.#reading(false);
     this.#picture.showObservations(observations);
+    this.#controls.setUsed(motion.used);
     this.#controls.setCamera(motion.camera);
     const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= UNSURE), 0);
     const share = Math.round((100 * sure) / Math.max(1, motion.confidence.length));

@@ -97,16 +97,21 @@ export class CameraTurn {
   /** @param focal focal length, relative to the longer side of the pictures */
   constructor(private readonly focal: number) {}
 
+  /** The next picture has nothing in common with those before it; its camera counts as not turned since the last one. */
+  restart(): void {
+    this.#keys.length = 0;
+  }
+
   /**
-   * @param values grey values of the next picture, of `comparedSize`, 0 to 1
+   * @param grey the next picture, of `comparedSize`, 0 to 1
    * @returns the turn from the axes of its camera (x right, y down, z away) to those of the first picture's
    */
-  next(values: Float32Array, size: Pick<Grey, 'width' | 'height'>, dancer: Circle | null): Quat {
-    const picture = prepared(values, size, dancer);
+  next(grey: Grey, dancer: Circle | null): Quat {
+    const picture = prepared(grey, dancer);
     const key = this.#nearestKey();
     if (!key) {
-      this.#keys.push({ ...picture, turn: IDENTITY });
-      return IDENTITY;
+      this.#keys.push({ ...picture, turn: this.#turn });
+      return this.#turn;
     }
     let between = multiply(conjugate(key.turn), this.#turn);
     const laid = differences(picture, key, OWN_SIZE, between, this.focal);
@@ -137,12 +142,8 @@ export class CameraTurn {
 }
 
 /** A picture as it is compared. */
-function prepared(
-  values: Float32Array,
-  { width, height }: Pick<Grey, 'width' | 'height'>,
-  dancer: Circle | null,
-): Compared {
-  const whole = withoutLocalMean({ width, height, values });
+function prepared(grey: Grey, dancer: Circle | null): Compared {
+  const whole = withoutLocalMean(grey);
   const half = halved(whole);
   return { levels: [halved(half), half, whole], dancer };
 }

@@ -183,14 +183,14 @@ export async function film(
   });
   const fov = (2 * Math.atan(shot.height / 2 / shot.focal) * 180) / Math.PI;
   const camera = new PerspectiveCamera(fov, shot.width / shot.height, 0.1, 40);
-  camera.position.set(...shot.position);
-  camera.lookAt(...shot.target);
-  // A phone that is turned writes turned pictures and says by how much players have to turn them back.
-  if (shot.rotation !== undefined) camera.rotateZ((-shot.rotation * Math.PI) / 180);
-  if (shot.panned !== undefined) scene.add(wall());
-  const still = camera.quaternion.clone();
+  if (shot.panned !== undefined || shot.cut) scene.add(wall());
   const draw = (time: number): void => {
-    if (shot.panned !== undefined) camera.quaternion.multiplyQuaternions(still, heldTurn(shot.panned, time));
+    const { position, target } = shot.cut && time >= shot.cut.at ? shot.cut : shot;
+    camera.position.set(...position);
+    camera.lookAt(...target);
+    // A phone that is turned writes turned pictures and says by how much players have to turn them back.
+    if (shot.rotation !== undefined) camera.rotateZ((-shot.rotation * Math.PI) / 180);
+    if (shot.panned !== undefined) camera.quaternion.multiply(heldTurn(shot.panned, time));
     mannequins.forEach((mannequin, i) => {
       mannequin.pose(time);
       const { from = 0, until = Infinity } = cast[i]!;

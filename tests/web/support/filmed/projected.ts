@@ -81,6 +81,7 @@ export function projected(
     // The whole picture was seen, so that the axes are the camera's.
     centre: Float32Array.from({ length: 2 * frames }, (_, i) => (i % 2 === 0 ? width : height) / 2),
     turn: Float32Array.from({ length: 4 * frames }, (_, i) => Number(i % 4 === 3)),
+    cuts: [],
     brightest: 1,
   };
 }

@@ -43,7 +43,7 @@ function* cells(): Generator<{ field: Field; columns: number; at: number; step: 
 
 /** @param seen pictures at even spaces of time */
 export function encodeRecording(
-  seen: Readonly<Record<keyof Observations, ArrayLike<number> | number>>,
+  seen: Readonly<Record<Exclude<keyof Observations, 'cuts'>, ArrayLike<number> | number>>,
 ): string {
   const { times, width, height } = seen as unknown as Observations;
   const rows = times.length;
@@ -96,6 +96,7 @@ export function recorded(name: string): Observations {
     turn: Float32Array.from({ length: 4 * rows }, (_, i) =>
       turns ? turns[i]! * SHARE : Number(i % 4 === 3),
     ),
+    cuts: [],
     brightest: 1,
   };
 }

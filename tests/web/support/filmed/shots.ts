@@ -12,6 +12,8 @@ export interface Shot {
   readonly clothed: boolean;
   /** By how much a hand turns the camera to both sides, slowly, degrees; it trembles meanwhile. By default it stands still. */
   readonly panned?: number;
+  /** From a time in seconds on, the camera is elsewhere. */
+  readonly cut?: Pick<Shot, 'position' | 'target'> & { readonly at: number };
   /** Bits a second; by default as many as a good picture takes. */
   readonly bitrate?: number;
   /** Clockwise turn that players are told to apply to the pictures, degrees. */
