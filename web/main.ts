@@ -16,7 +16,7 @@ import { mountLostNote } from './view/lost-note';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
-import { loadDemo } from './ui/files/demo';
+import { demoFetched, loadDemo } from './ui/files/demo';
 import { mountDropTarget } from './ui/files/drop-target';
 import { openDropped } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
@@ -85,6 +85,7 @@ const model: ModelLink = new ModelLink(store, (onStatus, folder) =>
     backend,
     onStatus: (status) => {
       onStatus(status);
+      if (status.kind === 'manifest') return firstDanceFetched;
       // Opening the graphs takes all of a small processor: the couple of an earlier visit is drawn before.
       return status.kind === 'open' ? project.coupleShown : undefined;
     },
@@ -121,6 +122,8 @@ const project = new Project(store, files, readers, {
 });
 // The browser reads while the page is built.
 const restoring = project.restore();
+/** On a slow connection the first couple and its song come before model and offline copy, which are twenty times as large. */
+const firstDanceFetched = restoring.then((restored) => (restored ? undefined : demoFetched(store)));
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator);
 createCoarseLayer(store, model.generator);
@@ -128,7 +131,7 @@ createEarlierDance(store);
 const playback = new PlaybackControl(store, new AudioPlayer());
 createQuality(store, measureDance);
 const offline = import.meta.env.PROD
-  ? registerServiceWorker(new URL('service-worker.js', document.baseURI), () => {
+  ? registerServiceWorker(new URL('service-worker.js', document.baseURI), firstDanceFetched, () => {
       apply(store, updateSet(true));
     })
   : null;
@@ -237,8 +240,8 @@ if (stage) {
 
 void restoring.then((restored) => (restored ? undefined : openDemo()));
 // The scores of recorded dances are only shown beside others, so they may come last and may be missing.
-void model
-  .manifest()
+void firstDanceFetched
+  .then(model.manifest)
   .then(({ id }) => readReference(manifestUrl, id))
   .then(
     (reference) => apply(store, referenceLoaded(reference)),

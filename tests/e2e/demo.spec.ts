@@ -3,7 +3,7 @@ import { leaderBvh } from '../web/support/leader-bvh';
 import { bvh, bvhText } from './support/files';
 import { App, maxDistance, meanSpeed, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
-import { serveDemo } from './support/made-demo';
+import { demoSettings, serveDemo } from './support/made-demo';
 
 test.use({ shippedDemo: true });
 
@@ -24,6 +24,27 @@ test('the shipped demo plays a duet on one click', async ({ page }) => {
   await app.until(({ playback }) => playback.time > 2);
   await page.keyboard.press('Home');
   await app.until(({ playback }) => playback.playing && playback.time > 0.1 && playback.time < 1.5);
+});
+
+test('the model is not downloaded before the demo, which a slow connection would bring late', async ({
+  page,
+  requests,
+}) => {
+  const app = new App(page);
+  let send = (): void => undefined;
+  const held = new Promise<void>((resolve) => (send = resolve));
+  await serveDemo(page, demoSettings);
+  await page.route('**/demo/song.wav', async (route) => {
+    await held;
+    await route.fallback();
+  });
+  await app.openWithoutPicture();
+  await app.until(({ reaction, manifest }) => reaction && manifest);
+  const large = (): string[] => requests.filter((address) => /\.(onnx|wasm)$/.test(address));
+  expect(large()).toEqual([]);
+  send();
+  await app.until(({ model }) => model.phase === 'ready');
+  expect(large()).toHaveLength(4);
 });
 
 test('the foot lock is switched by key, and stage and file follow at once', async ({ page }) => {

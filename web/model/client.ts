@@ -55,8 +55,8 @@ export interface GeneratorOptions {
   /** Number of wasm threads, for measurements; by default as many as suit the machine. */
   readonly threads?: number | undefined;
   /**
-   * Called while a model is loaded, which is also done again after a crash. Its graphs are opened after the promise
-   * that it returns for the status `open`.
+   * Called while a model is loaded, which is also done again after a crash. Its graphs are downloaded after the promise
+   * that it returns for the status `manifest`, and opened after the one for `open`.
    */
   readonly onStatus?: ((status: Status | ReloadFailure) => unknown) | undefined;
 }

@@ -8,9 +8,14 @@ interface ServiceWorkerUpdates {
  * Registers the service worker, which caches the page for use offline. Where the browser has none or refuses it, the
  * page is loaded from the network as before, and no failure is reported.
  * @param script address of the service worker
+ * @param after what is downloaded before the files that it caches
  * @param onUpdate called when a newer build is cached and waits to be activated
  */
-export function registerServiceWorker(script: URL, onUpdate: () => void): ServiceWorkerUpdates {
+export function registerServiceWorker(
+  script: URL,
+  after: Promise<void>,
+  onUpdate: () => void,
+): ServiceWorkerUpdates {
   let waiting: ServiceWorker | null = null;
   const container = navigator.serviceWorker as ServiceWorkerContainer | undefined;
   // A page without a controlling service worker came from the server, so no newer build waits. This is read now because
@@ -41,9 +46,7 @@ export function registerServiceWorker(script: URL, onUpdate: () => void): Servic
       // Registering is forbidden, storage is full, or the build is just being replaced on the server.
     }
   };
-  // The page's own files are downloaded first.
-  if (document.readyState === 'complete') void register();
-  else addEventListener('load', () => void register(), { once: true });
+  void after.then(register);
 
   return {
     activateUpdate: () => {

@@ -52,15 +52,14 @@ export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void>
   try {
     const files = { ...shell.files, ...(await usedBefore(shell, scope)) };
     const cache = await scope.caches.open(cacheName(shell, scope));
-    await Promise.all(
-      Object.entries(files).map(async ([path, integrity]) => {
-        const address = new URL(path, scope.base).href;
-        // The integrity check rejects a file of another build that an HTTP cache still holds.
-        const response = await scope.fetch(address, { integrity, cache: 'no-cache' });
-        if (!response.ok) throw new Error(`The server answered ${response.status} for ${path}.`);
-        await cache.put(address, await storable(response, shell.headers));
-      }),
-    );
+    // One by one: all together would take every connection from what the visitor waits for.
+    for (const [path, integrity] of Object.entries(files)) {
+      const address = new URL(path, scope.base).href;
+      // The integrity check rejects a file of another build that an HTTP cache still holds.
+      const response = await scope.fetch(address, { integrity, cache: 'no-cache' });
+      if (!response.ok) throw new Error(`The server answered ${response.status} for ${path}.`);
+      await cache.put(address, await storable(response, shell.headers));
+    }
   } catch (error) {
     await scope.caches.delete(cacheName(shell, scope)).catch(() => undefined);
     throw error;

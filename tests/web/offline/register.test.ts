@@ -22,9 +22,9 @@ async function visit(cachedBefore: boolean): Promise<number> {
   const page: { controller: ServiceWorker | null } = { controller: cachedBefore ? installed() : null };
   const container = Object.assign(new EventTarget(), page, { register: () => Promise.resolve(registration) });
   vi.stubGlobal('navigator', { serviceWorker: container });
-  vi.stubGlobal('document', { readyState: 'complete' });
   let offers = 0;
-  registerServiceWorker(SCRIPT, () => offers++);
+  registerServiceWorker(SCRIPT, Promise.resolve(), () => offers++);
+  await Promise.resolve();
   await Promise.resolve();
   await Promise.resolve();
   registration.waiting = coming;
@@ -38,6 +38,18 @@ describe('registering the service worker', () => {
 
   it('offers a newer build than the one that the page was loaded from', async () => {
     expect(await visit(true)).toBe(1);
+  });
+
+  it('waits for what the page downloads before', async () => {
+    const register = vi.fn(() => new Promise(() => undefined));
+    vi.stubGlobal('navigator', { serviceWorker: Object.assign(new EventTarget(), { register }) });
+    let downloaded = (): void => undefined;
+    const before = new Promise<void>((resolve) => (downloaded = resolve));
+    registerServiceWorker(SCRIPT, before, () => undefined);
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(register).not.toHaveBeenCalled();
+    downloaded();
+    await vi.waitFor(() => expect(register).toHaveBeenCalledOnce());
   });
 
   it('offers nothing on the first visit, even if the installation is reported late', async () => {

@@ -72,6 +72,19 @@ describe('the cached app shell', () => {
     expect(await (await ask(''))?.text()).toMatch(/^one/);
   });
 
+  it('is fetched file by file, so that connections are left to the page', async () => {
+    let [open, most] = [0, 0];
+    const one = server('one');
+    const fetch: typeof one = async (...request) => {
+      most = Math.max(most, ++open);
+      await new Promise((resolve) => setTimeout(resolve));
+      open--;
+      return one(...request);
+    };
+    await cacheShell(shell('one'), { caches: memoryCaches().caches, fetch, base: BASE });
+    expect(most).toBe(1);
+  });
+
   it('leaves models, parts of files and other sites to the network', async () => {
     const { ask } = await cached();
     expect(ask('models/salsa/step.onnx')).toBeNull();

@@ -30,7 +30,7 @@ export interface LoadOptions {
 
 /** What happens while a model is being loaded. */
 export type Status =
-  /** Comes first, before the graphs are downloaded. */
+  /** Comes first; graphs and runtime are downloaded after the promise that it may get as an answer. */
   | { readonly kind: 'manifest'; readonly manifest: Manifest }
   | { readonly kind: 'download'; readonly parts: readonly DownloadPart[] }
   | { readonly kind: 'open' | 'check' | 'warm-up' }
@@ -85,7 +85,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
 /**
  * Fetches, verifies, opens and tests a model.
  * @param scope the worker's global scope
- * @param onStatus may delay the opening of the graphs: what it returns for the status `open` is waited for
+ * @param onStatus may delay downloading and opening: what it returns for the status `manifest` or `open` is waited for
  * @throws {AppError}
  */
 export async function loadModel(
@@ -96,10 +96,11 @@ export async function loadModel(
   const get = folder ? folderFetch(folder, manifestUrl) : fetchWithTimeout(fetch);
   const cache = folder ? undefined : responseCache(scope);
   const manifest = await fetchLatest(manifestUrl, get, (bytes) => readManifest(bytes, manifestUrl), cache);
-  onStatus({ kind: 'manifest', manifest });
+  const mayDownload = onStatus({ kind: 'manifest', manifest });
   const place = { manifestUrl, folder, scope };
   let backend = await chooseBackend(preference, environment(scope), threads);
   if (processorBecause !== undefined) backend = fallBackToWasm(backend, processorBecause);
+  await mayDownload;
 
   const open = async (provider: Provider): Promise<ModelSession> => {
     const { graphs, runtime } = await downloadParts(manifest, provider, {

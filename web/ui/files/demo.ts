@@ -17,7 +17,7 @@ import { demoChanged, leaderLoaded, readingSet } from '../store/actions/files';
 import { reactionAdded, reactionCompleted } from '../store/actions/reaction';
 import { countingSet } from '../store/actions/counting';
 import { settingsSet } from '../store/actions/settings';
-import { apply, type Store } from '../store/store';
+import { apply, type Store, watch } from '../store/store';
 import { playbackSet } from '../store/actions/view';
 import { withoutUndo } from '../store/history/history';
 
@@ -60,6 +60,17 @@ interface DemoReaders {
   readonly manifest: () => Promise<Manifest>;
 }
 
+/** Resolves when nothing of the demo is left to download, or the visitor has asked for a dance before. */
+export function demoFetched(store: Store): Promise<void> {
+  return new Promise((resolve) => {
+    watch(
+      store,
+      ({ demo, job }) => demo !== 'loading' || job !== null,
+      (fetched) => fetched && resolve(),
+    );
+  });
+}
+
 /**
  * Loads the demo as if its files had been dropped, with labels that say they are the demo's. A visitor who has opened
  * files in the meantime keeps them.
@@ -69,14 +80,17 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
   try {
     const demo = v.parse(schema, await (await fetchShipped(new URL('demo.json', folder))).json());
     const { reactor } = demo;
-    // The couple does not wait for the song, and is there without it where it can't be had.
-    const songFile = fetchShipped(new URL(demo.song.file, folder))
+    const motions = Promise.all([
+      fetchShipped(new URL(demo.leader.file, folder)).then(bytesOf),
+      reactor ? fetchShipped(new URL(reactor.file, folder)).then(bytesOf) : null,
+    ]);
+    // The couple comes before the song, and is there without it where it can't be had.
+    const songFile = motions
+      .then(() => fetchShipped(new URL(demo.song.file, folder)))
       .then((response) => response.blob())
       .catch(() => null);
-    const [leaderBytes, motion] = await Promise.all([
-      fetchShipped(new URL(demo.leader.file, folder)).then(bytesOf),
-      reactor ? fetchShipped(new URL(reactor.file, folder)).then(bytesOf).then(readers.readReactor) : null,
-    ]);
+    const [leaderBytes, reactorBytes] = await motions;
+    const motion = reactorBytes && (await readers.readReactor(reactorBytes));
     if (isUntouched(store)) {
       const songLoading = openSong(store, files, songFile, demo);
       const leader = await files.readLeader({
