@@ -43,6 +43,7 @@ export type ErrorCode =
   | 'model-corrupt'
   | 'model-mismatch'
   | 'download-failed'
+  | 'web-page-instead'
   | 'gpu-lost'
   | 'bad-request'
   | 'not-finite'

@@ -11,7 +11,11 @@ const MAY_BE_OUTDATED: readonly ErrorCode[] = [
   'manifest-invalid',
   'model-corrupt',
   'model-mismatch',
+  'web-page-instead',
 ];
+
+/** How long to wait for the server's page, milliseconds: meanwhile a failure is not reported. */
+const WAIT_MS = 5000;
 
 /** A script of the page could not be loaded. */
 export function pagePartMissing(cause?: unknown): AppError {
@@ -55,7 +59,10 @@ export interface PageSource {
 /** The page itself; null in a worker, whose errors the page explains. */
 function ownPage(): PageSource | null {
   if (!('document' in globalThis)) return null;
-  return { document, current: () => fetch(location.pathname, { cache: 'no-store' }) };
+  return {
+    document,
+    current: () => fetch(location.pathname, { cache: 'no-store', signal: AbortSignal.timeout(WAIT_MS) }),
+  };
 }
 
 /** The error itself, or `newer-version` where the server has another version of the page than this one. */
@@ -64,12 +71,18 @@ export async function explainedByVersion(error: Error, page = ownPage()): Promis
   return suspected && page && (await isOutdated(page)) ? newerVersion(error) : error;
 }
 
-/** Whether the server's page begins with another script, whose name has a hash of its content. */
+/**
+ * Whether the server's page begins with another script, whose name has a hash of its content. A page without any such
+ * script is not this one: a network that asks its users to sign in answers everything with its own.
+ */
 async function isOutdated({ document, current }: PageSource): Promise<boolean> {
   const script = document.querySelector('script[type="module"][src]')?.getAttribute('src');
   try {
     const response = await current();
-    return response.ok && Boolean(script) && !(await response.text()).includes(script!);
+    if (!response.ok || !script) return false;
+    const page = await response.text();
+    const anyVersion = script.replace(/[\w-]{8}\.js$/, '');
+    return page.includes(anyVersion) && !page.includes(script);
   } catch {
     // Without a connection nothing is known of other versions.
     return false;

@@ -1,16 +1,19 @@
 import { fetchFile } from './download';
-import { AppError } from '../../common/error';
+import { AppError, type ErrorCode } from '../../common/error';
 import type { ResponseCache } from './cache';
 
 /** How long to wait for the server to begin its response, where a stored copy can be used instead. */
 const TIMEOUT_MS = 4000;
+
+/** Failures that say nothing of the file: no connection, or a network that asks its user to sign in. */
+const OUT_OF_REACH: readonly ErrorCode[] = ['download-failed', 'web-page-instead'];
 
 /**
  * Fetches a file whose newest version is needed, as a manifest's is, which names files that belong together: the
  * server is asked each time, and the last stored copy is used only when it does not respond.
  * @param parse reads the file; one that it refuses, as a proxy's page in its place, never replaces the stored copy
  * @param timeoutMs milliseconds to wait for the server where a copy is stored
- * @throws {AppError} `model-missing` when the server says so; `download-failed` when there is no copy either
+ * @throws {AppError} `model-missing` when the server says so; `download-failed` or `web-page-instead` when there is no copy either
  * @throws what `parse` throws
  */
 export async function fetchLatest<T>(
@@ -26,7 +29,7 @@ export async function fetchLatest<T>(
   try {
     bytes = await body(await fetchFile(url, stored === undefined ? get : begunWithin(get, timeoutMs)), url);
   } catch (error) {
-    if (stored !== undefined && error instanceof AppError && error.code === 'download-failed')
+    if (stored !== undefined && error instanceof AppError && OUT_OF_REACH.includes(error.code))
       return parse(stored);
     throw error;
   }

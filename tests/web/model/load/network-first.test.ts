@@ -35,6 +35,10 @@ describe('the latest version of a file', () => {
   it.each([
     ['is out of reach', offline],
     ['is broken', status(503)],
+    [
+      'is hidden behind the page of a network that asks to sign in',
+      () => Promise.resolve(new Response('<html>', { headers: { 'content-type': 'text/html' } })),
+    ],
   ])('is the stored copy while the server %s', async (_, get) => {
     expect(await fetchLatest(URL, get, text, store('old').answers)).toBe('old');
   });
