@@ -69,7 +69,7 @@ export function downloadFiles(
   manifest: Manifest,
   files: readonly ManifestFile[],
   { manifestUrl, folder, scope }: Place,
-  options: Pick<DownloadOptions, 'onProgress' | 'onCacheFailure'> = {},
+  options: Pick<DownloadOptions, 'onProgress' | 'onCacheFailure' | 'after'> = {},
 ): Promise<Uint8Array<ArrayBuffer>[]> {
   return download(manifestUrl, files, {
     fetch: folder ? folderFetch(folder, manifestUrl) : fetchWithTimeout(fetch),
@@ -86,7 +86,7 @@ interface PartsOptions extends Place {
 }
 
 /**
- * Gets the runtime and the graphs for a provider, both at once, from the cache where it has them.
+ * Gets the runtime and then the graphs for a provider, from the cache where it has them.
  * @throws {AppError} as `download`
  */
 export async function downloadParts(
@@ -98,7 +98,7 @@ export async function downloadParts(
   const report = (name: CachedPart) => (loaded: number, total: number, cached: number) => {
     progress.set(name, { name, loaded, total, cached });
     const [runtime, model] = [progress.get('runtime'), progress.get('model')];
-    // Both are looked up at the same time; a bar that knew only one of them would jump.
+    // Both are looked up at the start; a bar that knew only one of them would jump.
     if (runtime && model) onProgress([runtime, model]);
   };
   let reported = false;
@@ -107,9 +107,18 @@ export async function downloadParts(
     reported = true;
   };
   const graphs = GRAPHS.map((name) => manifest.graphs[name].files[provider]);
+  const downloading = downloadRuntime(provider, place.scope, {
+    onProgress: report('runtime'),
+    onCacheFailure: reportOnce,
+  });
+  // Half of both would be lost with the connection; what is whole stays.
   const [runtime, model] = await Promise.all([
-    downloadRuntime(provider, place.scope, { onProgress: report('runtime'), onCacheFailure: reportOnce }),
-    downloadFiles(manifest, graphs, place, { onProgress: report('model'), onCacheFailure: reportOnce }),
+    downloading,
+    downloadFiles(manifest, graphs, place, {
+      onProgress: report('model'),
+      onCacheFailure: reportOnce,
+      after: downloading,
+    }),
   ]);
   return {
     graphs: Object.fromEntries(GRAPHS.map((name, i) => [name, model[i]])) as Record<GraphName, Uint8Array>,

@@ -21,6 +21,8 @@ export interface DownloadOptions {
   readonly onProgress?: ((loaded: number, total: number, cached: number) => void) | undefined;
   /** Called once, when a file could not be stored; the download goes on without storing any. */
   readonly onCacheFailure?: ((reason: unknown) => void) | undefined;
+  /** Nothing is fetched before this has come. */
+  readonly after?: Promise<unknown> | undefined;
 }
 
 /** A model's files by their path inside its folder, as in 'manifest.json'. */
@@ -29,14 +31,19 @@ export type ModelFolder = Readonly<Record<string, Blob>>;
 const MISSING_HINT = 'Check that the model folder was copied to the server, then load the page again.';
 
 /**
- * Fetch something that must not be a page: servers of single-page apps answer a missing file with 200 and HTML.
- * @throws {AppError} `model-missing` or `download-failed`
+ * Fetch something that must not be a page: servers of single-page apps answer a missing file with 200 and HTML, and so
+ * does a network, to everything, until its user has signed in.
+ * @throws {AppError} `model-missing`, `web-page-instead` or `download-failed`
  */
-export async function fetchFile(url: string, get: typeof fetch): Promise<Response> {
+export async function fetchFile(
+  url: string,
+  get: typeof fetch,
+  options: RequestInit = {},
+): Promise<Response> {
   let response: Response;
   try {
     // Ask the server each time: a manifest and graphs of different age would not fit each other.
-    response = await get(url, { cache: 'no-cache' });
+    response = await get(url, { cache: 'no-cache', ...options });
   } catch (error) {
     if (error instanceof AppError) throw error;
     throw new AppError(
@@ -56,22 +63,37 @@ export async function fetchFile(url: string, get: typeof fetch): Promise<Respons
   }
   if (response.headers.get('content-type')?.toLowerCase().includes('text/html') === true) {
     throw new AppError(
-      'model-missing',
+      'web-page-instead',
       `The server sent a web page instead of the model file ${url}.`,
-      MISSING_HINT,
+      `If this network asks you to sign in, do so and try again. ${MISSING_HINT}`,
     );
   }
   return response;
 }
 
-/** Reads a body and reports the bytes received so far. */
-async function readBody(
-  response: Response,
+/** Under what name the store has the beginning of a file whose download broke off. */
+const beginningOf = ({ sha256 }: ManifestFile): string => `${sha256}-beginning`;
+
+/**
+ * Fetches a file, from where an earlier attempt broke off if the store has its beginning.
+ * @param onBytes told how many bytes of the file are here
+ */
+async function fetchBytes(
   url: string,
+  file: ManifestFile,
+  { fetch: get, store }: DownloadOptions,
   onBytes: (bytes: number) => void,
 ): Promise<Uint8Array<ArrayBuffer>> {
-  const parts: Uint8Array<ArrayBuffer>[] = [];
-  let loaded = 0;
+  const beginning = (await store?.get(beginningOf(file)).catch(() => undefined)) ?? new Uint8Array();
+  const response = await fetchFile(
+    url,
+    get,
+    beginning.length > 0 ? { cache: 'no-store', headers: { range: `bytes=${beginning.length}-` } } : {},
+  );
+  // A server that sends no parts of files answers with the whole.
+  const isRest = response.status === 206;
+  const parts = isRest ? [beginning] : [];
+  let loaded = isRest ? beginning.length : 0;
   try {
     const reader = response.body?.getReader();
     for (let part = await reader?.read(); part?.value !== undefined; part = await reader?.read()) {
@@ -80,15 +102,23 @@ async function readBody(
       onBytes(loaded);
     }
   } catch (error) {
+    // A rest is sent without compression: where the whole is smaller with it, as the runtime is, that comes again.
+    const whole = Number(response.headers.get('content-length')) || file.bytes;
+    if (loaded < file.bytes && (isRest || file.bytes - loaded < whole))
+      await store?.put(beginningOf(file), joined(parts)).catch(() => undefined);
     if (error instanceof AppError) throw error;
     throw new AppError(
       'download-failed',
-      `The download of the model file ${url} broke off after ${loaded} bytes.`,
+      `The download of the model file ${url} broke off after ${(loaded / 1e6).toFixed(1)} MB.`,
       'Check the connection, then try again.',
       { cause: error },
     );
   }
-  const bytes = new Uint8Array(loaded);
+  return joined(parts);
+}
+
+function joined(parts: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+  const bytes = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
   let at = 0;
   for (const part of parts) {
     bytes.set(part, at);
@@ -122,19 +152,22 @@ function lookUp(
  * Get files, from the store where it has them, and verify them against the manifest.
  * @param base address that the files' paths are relative to
  * @returns the files' bytes, in order
- * @throws {AppError} `model-missing`, `download-failed`, or `model-corrupt` when bytes differ from the manifest
+ * @throws what `after` rejects with
+ * @throws {AppError} `model-missing`, `web-page-instead`, `download-failed`, or `model-corrupt` when bytes differ from the manifest
  */
 export async function download(
   base: string,
   files: readonly ManifestFile[],
-  { fetch: get, store, alsoKeep = [], onProgress, onCacheFailure }: DownloadOptions,
+  options: DownloadOptions,
 ): Promise<Uint8Array<ArrayBuffer>[]> {
+  const { store, alsoKeep = [], after, onProgress, onCacheFailure } = options;
   const total = files.reduce((sum, file) => sum + file.bytes, 0);
   const found = await lookUp(files, store);
   const cached = found.reduce((sum, bytes) => sum + (bytes?.length ?? 0), 0);
   let loaded = cached;
   const report = (more: number): void => onProgress?.(Math.min(loaded + more, total), total, cached);
   report(0);
+  await after;
   let storeFailed = false;
   const results: Uint8Array<ArrayBuffer>[] = [];
   for (const [index, file] of files.entries()) {
@@ -144,9 +177,11 @@ export async function download(
       continue;
     }
     const url = new URL(file.path, base).href;
-    const bytes = await readBody(await fetchFile(url, get), url, report);
+    const bytes = await fetchBytes(url, file, options, report);
     const wrong = await mismatch(bytes, file);
     if (wrong !== undefined) {
+      // It may be the beginning that is wrong.
+      await store?.put(beginningOf(file), new Uint8Array()).catch(() => undefined);
       throw new AppError(
         'model-corrupt',
         `The model file ${file.path} is not the one its manifest lists: ${wrong}.`,

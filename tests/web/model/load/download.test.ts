@@ -97,6 +97,20 @@ describe('download', () => {
     expect(results.map((bytes) => new TextDecoder().decode(bytes))).toEqual(['graph a', 'graph bb']);
   });
 
+  it('fetches nothing before another download has ended, and fails with that', async () => {
+    let end = (): void => undefined;
+    const after = new Promise<void>((resolve) => (end = resolve));
+    const { get, asked } = both();
+    const progress: number[] = [];
+    const loading = download(BASE, [a], { fetch: get, after, onProgress: (loaded) => progress.push(loaded) });
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    expect([asked, progress]).toEqual([[], [0]]);
+    end();
+    expect(await loading).toHaveLength(1);
+    const failed = Promise.reject(new Error('the other one'));
+    await expect(download(BASE, [a], { fetch: get, after: failed })).rejects.toThrow('the other one');
+  });
+
   it('does not delete files that are to be kept', async () => {
     const { store, files } = memoryStore();
     files.set(b.sha256, bytesOf('graph bb'));
@@ -129,8 +143,9 @@ describe('download', () => {
     const error = await failure(
       () => new Response('<html>', { headers: { 'content-type': 'text/html; charset=utf-8' } }),
     );
-    expect(error.code).toBe('model-missing');
-    expect(error.message).toContain('a.onnx');
+    expect(error.code).toBe('web-page-instead');
+    expect(error.message).toMatch(/web page .*a\.onnx/);
+    expect(error.hint).toContain('sign in');
   });
 
   it.each<[string, () => Response, string]>([
@@ -151,6 +166,73 @@ describe('download', () => {
   it('reports a missing connection', async () => {
     const get: typeof fetch = () => Promise.reject(new TypeError('Failed to fetch'));
     await expect(download(BASE, [a], { fetch: get })).rejects.toMatchObject({ code: 'download-failed' });
+  });
+});
+
+describe('a download that breaks off', () => {
+  const url = 'https://dance.example/models/salsa/a.onnx';
+  /** A server that breaks off after `sent` bytes of the first answer, then answers with `next`; it notes what is asked. */
+  function unsteady(
+    sent: string,
+    next: (range: string | null) => Response,
+    headers: Record<string, string> = {},
+  ) {
+    const ranges: (string | null)[] = [];
+    const get: typeof fetch = (_, options) => {
+      const range = new Headers(options?.headers).get('range');
+      ranges.push(range);
+      if (ranges.length > 1) return Promise.resolve(next(range));
+      const chunks = [bytesOf(sent)];
+      const body = new ReadableStream<Uint8Array>({
+        pull: (stream) => {
+          const chunk = chunks.shift();
+          if (chunk) stream.enqueue(chunk);
+          else stream.error(new TypeError('network error'));
+        },
+      });
+      return Promise.resolve(new Response(body, { headers }));
+    };
+    return { get, ranges };
+  }
+  async function twice({ get }: { get: typeof fetch }, store = memoryStore().store) {
+    const loaded: number[] = [];
+    const options = { fetch: get, store, onProgress: (bytes: number) => loaded.push(bytes) };
+    await expect(download(BASE, [a], options)).rejects.toMatchObject({
+      code: 'download-failed',
+      message: `The download of the model file ${url} broke off after 0.0 MB.`,
+    });
+    loaded.length = 0;
+    return { bytes: await download(BASE, [a], options).catch((error: unknown) => error), loaded };
+  }
+  const rest = () => new Response('h a', { status: 206 });
+
+  it('goes on where it broke off, and leaves nothing behind', async () => {
+    const server = unsteady('grap', rest);
+    const { store, files } = memoryStore();
+    const { bytes, loaded } = await twice(server, store);
+    expect(bytes).toEqual([bytesOf('graph a')]);
+    expect(server.ranges).toEqual([null, 'bytes=4-']);
+    expect(loaded).toEqual([0, 7, 7]);
+    expect([...files.keys()]).toEqual([a.sha256]);
+  });
+
+  it('begins again where the server sends no parts of files', async () => {
+    const { bytes } = await twice(unsteady('grap', () => new Response('graph a')));
+    expect(bytes).toEqual([bytesOf('graph a')]);
+  });
+
+  it('begins again where the whole is shorter compressed than the rest without', async () => {
+    const server = unsteady('gra', () => new Response('graph a'), { 'content-length': '4' });
+    await twice(server);
+    expect(server.ranges).toEqual([null, null]);
+  });
+
+  it('does not go on with a wrong beginning for ever', async () => {
+    const server = unsteady('Grap', (range) => (range ? rest() : new Response('graph a')));
+    const { store } = memoryStore();
+    const { bytes } = await twice(server, store);
+    expect(bytes).toMatchObject({ code: 'model-corrupt' });
+    expect(await download(BASE, [a], { fetch: server.get, store })).toEqual([bytesOf('graph a')]);
   });
 });
 
