@@ -167,7 +167,9 @@ const services: Services = {
   makeVariations: variations.make,
   drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
-  retryModel: model.retry,
+  retryModel: () => {
+    if (model.retry()) generation.resume();
+  },
   reopenModel: () => void model.reopen().then((opened) => opened && generation.generate()),
   togglePlay: playback.toggle,
   seek: playback.seek,
@@ -230,6 +232,8 @@ mountImportPanel(rememberedJoints)(document.body, store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
 mountUndoKeys(store, services);
+// The model is downloaded on when the connection is there again.
+addEventListener('online', services.retryModel);
 if (stage) {
   mountLostNote(stage, stageHost);
   bindStage(stage, withPartRead(store));

@@ -115,8 +115,22 @@ test.describe('the model', () => {
     await page.getByRole('button', { name: 'Try again' }).click();
     await expect(page.locator('.badge').getByRole('button')).toBeFocused();
     await app.until(({ model }) => model.phase === 'ready');
-    await page.getByRole('button', { name: 'Generate' }).click();
+    // What waited for the model is made without another click.
     await app.reaction('patient.bvh');
+  });
+
+  test('is loaded again when the connection is back, and what waited for it is made', async ({ page }) => {
+    const app = new App(page);
+    let lost = true;
+    await page.route('**/models/tiny/step*', (route) => (lost ? route.abort() : route.continue()));
+    await app.openWithoutPicture();
+    await expect(app.alert.getByRole('heading')).toHaveText(/could not be fetched/);
+    await app.drop(bvh({ frames: 60, name: 'patient.bvh' }));
+    await app.until(({ leader, job }) => leader?.name === 'patient.bvh' && !job);
+    lost = false;
+    await page.evaluate(() => dispatchEvent(new Event('online')));
+    await app.reaction('patient.bvh');
+    await expect(app.alert).toBeHidden();
   });
 
   test('served as a web page is recognised', async ({ page }) => {

@@ -5,7 +5,7 @@ import { modelProblem, ownModelProblem } from '../store/problems';
 import type { ModelState } from '../store/state';
 import { manifestLoaded, modelChanged, modelOpened } from '../store/actions/model';
 import { apply, type Store } from '../store/store';
-import { problemShown, noticeAdded } from '../store/actions/notices';
+import { noticeAdded, problemClosed, problemShown } from '../store/actions/notices';
 
 /** Loads a model, from a folder or from the page's own address, and reports each status. */
 type Create = (
@@ -51,9 +51,13 @@ export class ModelLink {
   readonly manifest = (): Promise<Manifest> =>
     Promise.resolve(this.store.getState().manifest ?? this.#manifest);
 
-  /** Loads the same model again after a failure. */
-  readonly retry = (): void => {
-    if (this.store.getState().model.phase === 'failed') this.#generator = this.#begin(this.#current.folder);
+  /** Loads the same model again after a failure; false where there was none. */
+  readonly retry = (): boolean => {
+    const { model, problem } = this.store.getState();
+    if (model.phase !== 'failed') return false;
+    if (problem?.remedy === 'model') apply(this.store, problemClosed());
+    this.#generator = this.#begin(this.#current.folder);
+    return true;
   };
 
   /**

@@ -46,6 +46,8 @@ export class Generation {
   #running: Running | null = null;
   /** The newest weights, which came before the preview of older ones. */
   #waiting: Inputs | null = null;
+  /** Whether the last request failed because the model could not be loaded. */
+  #unloaded = false;
   /** The inputs are looked at when the present task's changes have been made. */
   #queued = false;
   #disposed = false;
@@ -71,6 +73,13 @@ export class Generation {
     if (inputs) void this.#run(inputs, true);
   };
 
+  /** The model is loaded once more: what could not be made without it is requested again. */
+  readonly resume = (): void => {
+    if (!this.#unloaded) return;
+    this.#requested = null;
+    this.#followInputs();
+  };
+
   /** Aborts the running request; nothing begins again until something changes or `generate` is called. */
   readonly cancel = (): void => {
     this.#abort();
@@ -84,6 +93,7 @@ export class Generation {
   };
 
   #abort(): void {
+    this.#unloaded = false;
     this.#waiting = null;
     this.#running?.controller.abort();
     this.#running = null;
@@ -151,8 +161,8 @@ export class Generation {
       if (signal.aborted) return;
       this.#running = null;
       apply(this.#store, jobChanged(null));
-      const failedToLoad = this.#store.getState().model.phase === 'failed';
-      if (!isAbort(error) && !failedToLoad) apply(this.#store, problemShown(generationProblem(error)));
+      this.#unloaded = this.#store.getState().model.phase === 'failed';
+      if (!isAbort(error) && !this.#unloaded) apply(this.#store, problemShown(generationProblem(error)));
     }
   }
 

@@ -79,7 +79,8 @@ describe('loading the model', () => {
     expect(store.getState().problem).toMatchObject({ code: 'model-missing', remedy: 'model' });
     attempts[0]?.tell({ kind: 'download', parts: [{ name: 'runtime', loaded: 1, total: 4, cached: 0 }] });
     expect(store.getState().model.phase, 'a download beside the one that failed').toBe('failed');
-    link.retry();
+    expect(link.retry()).toBe(true);
+    expect(store.getState().problem).toBeNull();
     attempts[1]?.tell({ kind: 'manifest', manifest: small });
     attempts[1]?.tell({ kind: 'ready', backend });
     attempts[1]?.succeed(generator);
@@ -89,7 +90,7 @@ describe('loading the model', () => {
 
   it('does not load twice', () => {
     const { link, attempts } = loading();
-    link.retry();
+    expect(link.retry()).toBe(false);
     expect(attempts).toHaveLength(1);
   });
 

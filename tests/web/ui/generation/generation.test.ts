@@ -1,10 +1,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { Preview } from '../../../../web/model/client';
+import { AppError } from '../../../../web/common/error';
+import type { Generator, Preview } from '../../../../web/model/client';
 import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { readyInputs } from '../../../../web/ui/store/selectors';
 import { projectCleared, projectOpened } from '../../../../web/ui/store/actions/project';
 import { redone, undone } from '../../../../web/ui/store/history/history';
+import { modelProblem } from '../../../../web/ui/store/problems';
 import { shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';
@@ -345,5 +347,45 @@ describe('generation', () => {
     await settled();
     expect(model.calls[0]?.options.signal?.aborted).toBe(true);
     expect(store.getState()).toMatchObject({ job: null, reaction: { label: 'demo reaction' } });
+  });
+
+  describe('when the model could not be loaded', () => {
+    const broken = new AppError('download-failed', 'It broke off.', 'Try again.');
+    let attempt: Promise<Generator>;
+
+    /** Asks for a dance while the model is being loaded, which then fails. */
+    async function fail(meanwhile = (): void => undefined): Promise<void> {
+      stop();
+      let refuse = (): void => undefined;
+      attempt = new Promise((_, reject) => (refuse = () => reject(broken)));
+      generation = new Generation(store, () => attempt);
+      stop = generation.dispose;
+      await begin();
+      meanwhile();
+      change.apply(store, change.modelChanged({ phase: 'failed', problem: modelProblem(broken) }));
+      refuse();
+      await settled();
+      expect(store.getState()).toMatchObject({ job: null, problem: null });
+      attempt = Promise.resolve(model.generator);
+    }
+
+    it('makes what waited for it as soon as it is loaded once more', async () => {
+      await fail();
+      generation.resume();
+      await settled();
+      model.calls[0]?.answer(result());
+      await settled();
+      expect(store.getState().reaction).not.toBeNull();
+      generation.resume();
+      await settled();
+      expect(model.calls).toHaveLength(1);
+    });
+
+    it('does not make what the visitor has cancelled before', async () => {
+      await fail(() => generation.cancel());
+      generation.resume();
+      await settled();
+      expect(model.calls).toHaveLength(0);
+    });
   });
 });
