@@ -264,7 +264,7 @@ test('a lost graphics card leaves a sentence on the stage, and the picture comes
 test('a page whose first script does not come says so after a while, and no other one does', async ({
   page,
 }) => {
-  const help = page.getByText(/check the connection and reload the page/);
+  const help = page.getByText(/check the connection and reload\s+the page/);
   await page.route('**/assets/index-*.js', (route) => route.abort());
   await page.goto('/');
   await expect(help).toBeHidden();

@@ -161,3 +161,35 @@ test.describe('on a tablet', () => {
     for (const [above, top] of tops.slice(1).entries()) expect(top - tops[above]!).toBeGreaterThanOrEqual(24);
   });
 });
+
+test('the card says how much of the model has come, and nothing in the bar gives way where it fails', async ({
+  page,
+}) => {
+  let fail = (): void => undefined;
+  const held = new Promise<void>((resolve) => (fail = resolve));
+  await page.route('**/models/tiny/step*', async (route) => {
+    await held;
+    await route.abort();
+  });
+  await serveDemo(page, demoSettings);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.until(({ model, reaction }) => model.phase === 'loading' && model.received > 14e6 && reaction);
+  const badge = page.locator('.badge');
+  await badge.getByRole('button').tap();
+  const card = page.getByRole('dialog', { name: 'On this device' });
+  await expect(card).toContainText(/is being downloaded: 14\.\d of 14\.\d MB\./);
+  await page.keyboard.press('Escape');
+  await page.getByRole('button', { name: 'New random seed' }).tap();
+  const [words, meter] = [page.locator('.progress > span').first(), app.progress];
+  await expect(words).toBeVisible();
+  await expect(words).toContainText(/waiting for the model, 14\.\d of 14\.\d MB/);
+  const [left, right] = [(await words.boundingBox())!, (await meter.boundingBox())!];
+  expect(await words.evaluate((element) => element.scrollWidth - element.clientWidth)).toBe(0);
+  expect(left.x + left.width).toBeLessThanOrEqual(right.x);
+  const chip = page.getByRole('button', { name: /^Leader: / });
+  const wide = (await chip.boundingBox())!.width;
+  fail();
+  await expect(badge.getByRole('button', { name: 'Try again' })).toBeVisible();
+  expect((await chip.boundingBox())!.width).toBeGreaterThan(wide - 40);
+});

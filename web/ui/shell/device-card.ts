@@ -1,6 +1,6 @@
 import { textButton, closeButton } from '../widgets/button';
 import { el, onPressOutside, setText, combineDisposers } from '../widgets/dom';
-import { byteSize } from '../store/format';
+import { byteSize, bytesOf } from '../store/format';
 import type { Services } from '../store/services';
 import type { ModelState } from '../store/state';
 import type { StorageUsage } from '../../offline/storage-usage';
@@ -48,13 +48,17 @@ export function mountDeviceCard(
     watchAll(
       store,
       (state) => [state.openPanel === 'device', state.model.phase],
-      ({ openPanel, model }) => {
+      ({ openPanel }) => {
         if (openPanel !== 'device') return;
-        setText(why, reason(model));
         void services.measureStorage().then((usage) => {
           showStorage(elements, usage, storageText(usage));
         });
       },
+    ),
+    watch(
+      store,
+      ({ openPanel, model }) => (openPanel === 'device' ? reason(model) : ''),
+      (sentence) => setText(why, sentence),
     ),
     watch(store, persistenceText, (sentence) => {
       setText(work, sentence === null ? '' : `Your songs, leaders and takes: ${sentence}`);
@@ -127,8 +131,11 @@ async function empty(elements: Elements, services: Services): Promise<void> {
 
 function reason(model: ModelState): string {
   if (model.phase === 'ready') return `The partner is computed on this device. ${model.reason}`;
-  if (model.phase === 'loading')
-    return 'The partner will be computed on this device. Its model is being downloaded.';
+  if (model.phase === 'loading') {
+    const { label, received, total } = model;
+    const now = total > 0 ? `Its model is being downloaded: ${bytesOf(received, total)}.` : `${label}.`;
+    return `The partner will be computed on this device. ${now}`;
+  }
   return 'The model that makes the partner could not be loaded.';
 }
 
