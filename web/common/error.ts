@@ -49,6 +49,7 @@ export type ErrorCode =
   | 'not-finite'
   // A worker, or another part of the page.
   | 'worker-crashed'
+  | 'out-of-memory'
   | 'page-part-missing'
   | 'newer-version'
   // The stage.

@@ -27,6 +27,17 @@ interface CallOptions<Report = never> {
  */
 const WORKER_TIMEOUTS: Timeouts = { first: 60, next: 60 };
 
+/** How browsers and onnxruntime say that memory cannot be had. */
+const NO_MEMORY = /bad_alloc|out of memory|\bOOM\b|allocation failed|could not allocate|maximum memory size/i;
+
+function outOfMemory(): AppError {
+  return new AppError(
+    'out-of-memory',
+    'This device has no memory left for that.',
+    'Close other tabs and programs, then try again; a shorter song and leader need less.',
+  );
+}
+
 /**
  * Hands the reports of a call on until it ends. The port that they come through may outlive the call, so it holds
  * nothing of it.
@@ -76,19 +87,19 @@ export class WorkerConnection<T extends Tasks> {
   ) {
     this.#worker = worker;
     this.#remote = wrap<TaskRunner>(worker);
-    this.#toError = toError;
+    this.#toError = (reason) => (NO_MEMORY.test(reason) ? outOfMemory() : toError(reason));
     this.#watchdog = new Watchdog(
       timeouts,
       () => this.#remote.answer(),
-      (seconds) => this.dispose(toError(`no answer for ${seconds} seconds`)),
+      (seconds) => this.dispose(this.#toError(`no answer for ${seconds} seconds`)),
     );
     worker.addEventListener('error', (event) => {
       event.preventDefault();
-      if (event.message) this.dispose(toError(event.message));
+      if (event.message) this.dispose(this.#toError(event.message));
       // Only a script that could not be loaded gives no reason.
       else void explainedByVersion(pagePartMissing()).then((error) => this.dispose(error));
     });
-    worker.addEventListener('messageerror', () => this.dispose(toError('a message could not be read')));
+    worker.addEventListener('messageerror', () => this.dispose(this.#toError('a message could not be read')));
   }
 
   /** True after a crash, silence or `dispose`: calls fail. */

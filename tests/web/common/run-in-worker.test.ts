@@ -34,7 +34,7 @@ const tasks = {
     throw new AppError('bad-request', 'It has no frames.', 'Give it some.');
   },
   crash: (_: object): never => {
-    throw new RangeError('out of memory');
+    throw new RangeError('out of range');
   },
   wait: (_: object, { signal }: TaskContext<never>): Promise<void> => {
     seen.signal = signal;
@@ -164,12 +164,27 @@ describe('a connection to a worker', () => {
     const waiting = connection.call('wait', {});
     const both = Promise.allSettled([waiting, connection.call('crash', {})]);
     expect(await both).toMatchObject([
-      { status: 'rejected', reason: { message: 'Stopped: out of memory' } },
-      { status: 'rejected', reason: { message: 'Stopped: out of memory' } },
+      { status: 'rejected', reason: { message: 'Stopped: out of range' } },
+      { status: 'rejected', reason: { message: 'Stopped: out of range' } },
     ]);
     expect(connection.ended).toBe(true);
     expect(worker).toHaveProperty('terminated', true);
-    await expect(connection.call('double', { values: Float32Array.of(1) })).rejects.toThrow('out of memory');
+    await expect(connection.call('double', { values: Float32Array.of(1) })).rejects.toThrow('out of range');
+  });
+
+  it.each([
+    "Can't create a session. ERROR_CODE: 6, ERROR_MESSAGE: std::bad_alloc",
+    'WebAssembly.Memory(): could not allocate memory',
+    'Array buffer allocation failed',
+    'Aborted(OOM)',
+  ])('says what to do where memory cannot be had: %s', async (reason) => {
+    const worker = open();
+    const waiting = new WorkerConnection<Tested>(worker).call('wait', {});
+    fail(worker, reason);
+    await expect(waiting).rejects.toMatchObject({
+      code: 'out-of-memory',
+      hint: expect.stringContaining('Close other tabs') as string,
+    });
   });
 
   it.each([

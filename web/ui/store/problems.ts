@@ -21,7 +21,7 @@ function problemOf(
 }
 
 /** Failures of the page that no other file would mend. */
-const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'page-part-missing'];
+const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'out-of-memory', 'page-part-missing'];
 
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
