@@ -20,8 +20,16 @@ function problemOf(
   return { code, title, hint, remedy: code === 'newer-version' ? 'reload' : remedy, refused: null };
 }
 
-/** Failures of the page that no other file would mend. */
-const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'out-of-memory', 'page-part-missing'];
+/** Failures of the page that no other file would mend; the models are those that find a dancer in a video. */
+const NOT_OF_THE_FILE: readonly string[] = [
+  'worker-crashed',
+  'out-of-memory',
+  'page-part-missing',
+  'download-failed',
+  'web-page-instead',
+  'model-missing',
+  'model-corrupt',
+];
 
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {

@@ -151,8 +151,12 @@ describe('reading files', () => {
     await files.open([file('older.bvh', BVH)]);
     change.apply(store, change.problemClosed());
     const again = vi.fn();
-    files.fail(new AppError('worker-crashed', 'The video stopped.', 'Try again.'), 'leader', 'a.mov', again);
-    expect(store.getState().problem).toMatchObject({ remedy: 'read-again', refused: { name: 'a.mov' } });
+    // Not the video but what reads it could not be had.
+    for (const code of ['worker-crashed', 'download-failed'] as const) {
+      files.fail(new AppError(code, 'The video stopped.', 'Try again.'), 'leader', 'a.mov', again);
+      expect(store.getState().problem).toMatchObject({ remedy: 'read-again', refused: { name: 'a.mov' } });
+      change.apply(store, change.problemClosed());
+    }
     files.readAgain('leader');
     expect(again).toHaveBeenCalledOnce();
   });
