@@ -172,7 +172,7 @@ test.describe('a server', () => {
     await page.route('**/tiny/manifest.json', (route) =>
       route.fulfill({ contentType: 'text/html', body: '<html>' }),
     );
-    expect(await refusal(page)).toMatchObject({ code: 'model-missing' });
+    expect(await refusal(page)).toMatchObject({ code: 'web-page-instead' });
   });
 
   test('that answers with a page for a graph', async ({ page }) => {
@@ -180,7 +180,7 @@ test.describe('a server', () => {
       route.fulfill({ contentType: 'text/html', body: '<html>' }),
     );
     const error = await refusal(page);
-    expect(error.code).toBe('model-missing');
+    expect(error.code).toBe('web-page-instead');
     expect(error.message).toContain('step-int8.onnx');
   });
 
