@@ -29,6 +29,11 @@ export class PlaybackClock {
     return this.#latest;
   }
 
+  /** Time of the last start, seconds. */
+  get started(): number {
+    return this.#start.time;
+  }
+
   /** Starts again at a time in seconds, kept within the duration; by default where it was started last. */
   restart(time = this.#start.time): void {
     this.#start = { time: this.#clamp(time), atMs: performance.now() };

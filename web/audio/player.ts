@@ -42,8 +42,11 @@ export class AudioPlayer {
   get time(): number {
     if (!this.#playing) return this.#clock.latest;
     const { paused, ended, currentTime, duration } = this.#elements.active;
-    if (paused || ended) return this.#clock.read(null);
-    return this.#clock.read({ position: currentTime, length: duration, songStart: this.#songStart });
+    const songStart = this.#songStart;
+    // Until the event comes that starts the clock at the end of the song, it is the time.
+    const ending = ended && this.#clock.started < duration + songStart;
+    if (!ending && (paused || ended)) return this.#clock.read(null);
+    return this.#clock.read({ position: currentTime, length: duration, songStart });
   }
 
   get playing(): boolean {

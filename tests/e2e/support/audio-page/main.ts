@@ -151,14 +151,18 @@ export const page = {
     return element ? element.currentTime : null;
   },
 
-  /** Reads both clocks at every frame for some seconds: [the page's, the player's] in seconds. */
+  /** Reads both clocks at every frame and event of the song for some seconds: [the page's, the player's] in seconds. */
   async watch(seconds: number): Promise<[number, number][]> {
     const readings: [number, number][] = [];
+    const read = (): void => void readings.push([performance.now() / 1000, player.time]);
+    const watched = [...elements];
+    for (const element of watched) element.addEventListener('timeupdate', read);
     const start = performance.now();
     while (performance.now() - start < seconds * 1000) {
       await new Promise(requestAnimationFrame);
-      readings.push([performance.now() / 1000, player.time]);
+      read();
     }
+    for (const element of watched) element.removeEventListener('timeupdate', read);
     return readings;
   },
 };
