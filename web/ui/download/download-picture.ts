@@ -14,7 +14,7 @@ export function createDownloadPicture(services: Services): {
   const save = textButton('btn tint', 'Save picture', services.savePicture);
   const share = textButton('btn tint', 'Share', services.shareSaved);
   share.setAttribute('aria-label', 'Share the picture');
-  const root = el('div', { class: 'row' }, el('h3', { text: 'Picture of this moment' }), about, share, save);
+  const root = el('div', { class: 'row' }, el('h3', { text: 'Picture' }), about, share, save);
   return {
     root,
     show: (state) => {
@@ -25,7 +25,11 @@ export function createDownloadPicture(services: Services): {
       share.hidden = !saved?.shareable;
       if (!size) return;
       if (state.writing === 'png') setText(about, 'Writing');
-      else setText(about, saved ? `Saved, ${byteSize(saved.bytes)}` : `PNG, ${size.width} × ${size.height}`);
+      else
+        setText(
+          about,
+          saved ? `Saved, ${byteSize(saved.bytes)}` : `This moment, PNG, ${size.width} × ${size.height}`,
+        );
     },
   };
 }
