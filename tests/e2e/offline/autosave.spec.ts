@@ -45,7 +45,10 @@ test('a take is kept whose page is reloaded, or whose browser process ends, in t
   });
   for (const [index, seed] of [101, 102, 103].entries()) {
     const reloaded = page.waitForEvent('load');
-    await takeMade(page, seed, 'location.reload()');
+    // The answer is sometimes lost with the page.
+    await takeMade(page, seed, 'location.reload()').catch((error: Error) => {
+      if (!error.message.includes('Execution context was destroyed')) throw error;
+    });
     await reloaded;
     await app.until(({ takes, restoring }, count) => takes.length === count && !restoring, index + 2);
     expect(await seeds(app)).toContain(seed);
