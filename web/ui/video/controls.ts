@@ -63,21 +63,22 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
     row('Use from', 's', start),
     row('Use to', 's', end),
   );
+  const showUsed = (span: Span, used: Span | null): void => {
+    // Inwards, so that no picture beyond a cut is in it.
+    start.value = String(
+      used && used.start > span.start + 0.1 ? Math.ceil(used.start * 10) / 10 : span.start,
+    );
+    end.value = String(used && used.end < span.end - 0.1 ? Math.floor(used.end * 10) / 10 : span.end);
+  };
   return {
     root,
     setSpan: (span) => {
       if (all) return;
       all = { start: Math.floor(span.start * 10) / 10, end: Math.ceil(span.end * 10) / 10 };
-      start.value = String(all.start);
-      end.value = String(all.end);
+      showUsed(all, null);
     },
     setUsed: (used) => {
-      if (!all || chosen) return;
-      // Inwards, so that no picture beyond a cut is in it.
-      start.value = String(
-        used && used.start > all.start + 0.1 ? Math.ceil(used.start * 10) / 10 : all.start,
-      );
-      end.value = String(used && used.end < all.end - 0.1 ? Math.floor(used.end * 10) / 10 : all.end);
+      if (all && !chosen) showUsed(all, used);
     },
     setCamera: (found) => {
       camera = found;

@@ -10,7 +10,7 @@ const BLANK = 0.02;
 
 /** Finds the cuts of a video: pictures that differ from the one before much more than those around them. */
 export class CutFinder {
-  #before: Grey | null = null;
+  #before: Float32Array | null = null;
   readonly #times: number[] = [];
   readonly #differences: number[] = [];
 
@@ -21,11 +21,11 @@ export class CutFinder {
    */
   next(picture: Grey, time: number): boolean {
     // Dancers and cameras move what is small.
-    const small = halved(halved(picture));
-    if (deviation(small.values) < BLANK) return false;
-    this.#differences.push(this.#before ? difference(this.#before, small) : 0);
+    const values = standardised(halved(halved(picture)));
+    if (!values) return false;
+    this.#differences.push(this.#before ? 1 - product(this.#before, values) : 0);
     this.#times.push(time);
-    this.#before = small;
+    this.#before = values;
     return this.#isCut(this.#times.length - 1);
   }
 
@@ -35,28 +35,25 @@ export class CutFinder {
   }
 
   #isCut(row: number): boolean {
-    const [times, changes] = [this.#times, this.#differences];
-    const change = changes[row]!;
-    if (change < LEAST) return false;
-    const isCalm = (other: number): boolean => RATIO * changes[other]! < change;
-    for (let other = row - 1; other >= 0 && times[row]! - times[other]! <= REACH; other--)
-      if (!isCalm(other)) return false;
-    for (let other = row + 1; other < times.length && times[other]! - times[row]! <= REACH; other++)
-      if (!isCalm(other)) return false;
+    const [times, differences] = [this.#times, this.#differences];
+    const own = differences[row]!;
+    if (own < LEAST) return false;
+    for (const step of [-1, 1])
+      for (let other = row + step; Math.abs(times[other]! - times[row]!) <= REACH; other += step)
+        if (RATIO * differences[other]! >= own) return false;
     return true;
   }
 }
 
-/** One minus the correlation of the grey values, which does not change with their brightness. */
-function difference(a: Grey, b: Grey): number {
-  const [meanA, meanB] = [mean(a.values), mean(b.values)];
-  const product = a.values.reduce((sum, value, i) => sum + (value - meanA) * (b.values[i]! - meanB), 0);
-  return 1 - product / (a.values.length * deviation(a.values) * deviation(b.values));
+/** Grey values less their mean, over the root of the sum of their squares; null for a picture that shows nothing. */
+function standardised({ values }: Grey): Float32Array | null {
+  const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
+  const rest = values.map((value) => value - mean);
+  const size = Math.sqrt(product(rest, rest));
+  return size < BLANK * Math.sqrt(values.length) ? null : rest.map((value) => value / size);
 }
 
-const mean = (values: Float32Array): number => values.reduce((sum, value) => sum + value, 0) / values.length;
-
-function deviation(values: Float32Array): number {
-  const middle = mean(values);
-  return Math.sqrt(mean(values.map((value) => (value - middle) ** 2)));
+/** Sum of the products; of standardised pictures their correlation, which does not change with the brightness. */
+function product(a: Float32Array, b: Float32Array): number {
+  return a.reduce((sum, value, i) => sum + value * b[i]!, 0);
 }
