@@ -238,3 +238,14 @@ test('the page links to the licences of all its software', async ({ page }) => {
   await page.getByRole('link', { name: 'Licences' }).click();
   await expect((await opening).getByText('Fabian Hiller').first()).toBeVisible();
 });
+
+for (const [where, without, sentence] of [
+  ['in a browser of 2023', 'delete AbortSignal.any', 'This browser is too old'],
+  ['where Lockdown Mode is on', 'delete globalThis.WebAssembly', 'WebAssembly, in which this page computes,'],
+] as const)
+  test(`${where}, a sentence stands in the place of the page`, async ({ page }) => {
+    await page.addInitScript(without);
+    await page.goto('/');
+    await expect(page.getByRole('alert')).toContainText(sentence);
+    await expect(page.locator('.app')).not.toBeAttached();
+  });
