@@ -115,6 +115,7 @@ test('of several people the largest is followed, and another one who is clicked'
   await panel.getByRole('button', { name: 'Follow another person' }).click();
   const people = panel.getByRole('button', { name: /Follow person \d from the largest/ });
   await expect(people).toHaveCount(2);
+  await expect(panel.locator('.persons')).toBeInViewport({ ratio: 0.95 });
   // A click on the picture, far right: the nearest one is taken.
   const box = (await panel.locator('.persons').boundingBox())!;
   await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.2 * box.height);
@@ -184,7 +185,10 @@ test('of a video with a cut the longest part is used, until another one is chose
   const seconds = (): Promise<number> => app.read(({ leader }) => leader!.motion.frames / 30);
   await expect.poll(seconds).toBeCloseTo(2.2, 1);
 
-  await panel.getByText('Correct the motion', { exact: true }).click();
+  const correct = panel.getByText('Correct the motion', { exact: true });
+  await expect(correct).toBeInViewport({ ratio: 1 });
+  await correct.click();
+  await expect(panel.getByRole('spinbutton', { name: 'Use to' })).toBeInViewport({ ratio: 0.9 });
   const from = panel.getByRole('spinbutton', { name: 'Use from' });
   await expect(from).toHaveValue('1.3');
   await from.fill('0');

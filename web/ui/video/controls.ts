@@ -56,7 +56,13 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
     el('label', { attributes: { for: input.id } }, label, input, el('span', { text: unit }));
   const root = el(
     'details',
-    {},
+    {
+      on: {
+        toggle: () => {
+          root.scrollIntoView({ block: 'nearest' });
+        },
+      },
+    },
     el('summary', { text: 'Correct the motion' }),
     row('Height of the dancer', 'cm', height),
     row('Distance of the camera', 'm', distance),

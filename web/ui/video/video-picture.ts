@@ -46,6 +46,7 @@ export class VideoPicture {
   });
   readonly #hint = el('span', { attributes: { 'aria-live': 'polite' } });
   readonly #choice = el('div', { class: 'choice' }, this.#hint, this.#moment);
+  readonly #frame: HTMLElement;
   readonly #address: string;
   readonly #skeleton = el('input', { attributes: { type: 'checkbox', checked: true } });
   #size = { width: 1, height: 1 };
@@ -75,13 +76,14 @@ export class VideoPicture {
     this.#skeleton.addEventListener('change', () => {
       this.#drawAt(this.#video.currentTime);
     });
+    this.#frame = el('div', { class: 'frame' }, this.#video, this.#canvas, this.#persons);
     this.root = el(
       'div',
       { class: 'picture-of-video' },
       // Above the picture, which may reach below the edge of a low window.
       this.#another,
       this.#choice,
-      el('div', { class: 'frame' }, this.#video, this.#canvas, this.#persons),
+      this.#frame,
       el('label', {}, this.#skeleton, ' Skeleton over the video'),
     );
   }
@@ -132,6 +134,7 @@ export class VideoPicture {
         return button;
       }),
     );
+    this.#frame.scrollIntoView({ block: 'nearest' });
   }
 
   /** Tells screen readers the moment that can be chosen. */
