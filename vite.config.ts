@@ -78,6 +78,9 @@ const brotli: Plugin = {
   },
 };
 
+/** It would warn of the time that plugins take, such as brotli, on a slow machine in each worker too. */
+const checks = { pluginTimings: false };
+
 const { page: licencesOfPage, worker: licencesOfWorker } = licences();
 
 export default defineConfig({
@@ -98,7 +101,7 @@ export default defineConfig({
   worker: {
     format: 'es',
     plugins: () => [manifestEntry(), licencesOfWorker()],
-    rolldownOptions: { output: { chunkFileNames: workerChunkName } },
+    rolldownOptions: { checks, output: { chunkFileNames: workerChunkName } },
   },
   // Whoever has set a larger text in the browser gets all of the page larger, as if it were zoomed. Hairlines stay.
   css: { postcss: { plugins: [pxToRem({ propList: ['*'], mediaQuery: true, minPixelValue: 2 })] } },
@@ -108,9 +111,8 @@ export default defineConfig({
     outDir: '../dist',
     emptyOutDir: true,
     target: 'es2023',
-    // It would warn of the time that brotli takes, each time.
     rolldownOptions: {
-      checks: { pluginTimings: false },
+      checks,
       output: {
         // GitHub Pages leaves out files whose names begin with "_", as the bundler's own do.
         chunkFileNames: ({ name }) => `assets/${name.replace(/^_+/, '')}-[hash].js`,
