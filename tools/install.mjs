@@ -5,16 +5,24 @@ import path from 'node:path';
 import { findBrowser } from './browser.mjs';
 import { outputOf, python, root, run, runOrThrow } from './run.mjs';
 
-/** The oldest Node, major and minor. */
-const MIN_NODE = /** @type {const} */ ([20, 19]);
 /** The oldest Python, major and minor. */
 const MIN_PYTHON = /** @type {const} */ ([3, 11]);
 
+/**
+ * Whether the pinned packages run on a version of Node. On others npm leaves out programs that the build needs.
+ *
+ * @param {string} version
+ */
+export function nodeIsSupported(version) {
+  const [major = 0, minor = 0] = version.split('.').map(Number);
+  return major >= 24 || (major === 22 && minor >= 13) || (major === 20 && minor >= 19);
+}
+
 /** Installs the pinned node packages unless exactly these are there. */
 export async function installNodePackages() {
-  const [major = 0, minor = 0] = process.versions.node.split('.').map(Number);
-  if (major < MIN_NODE[0] || (major === MIN_NODE[0] && minor < MIN_NODE[1])) {
-    throw new Error(`Node ${MIN_NODE.join('.')} or newer is needed; this is ${process.versions.node}`);
+  const { node } = process.versions;
+  if (!nodeIsSupported(node)) {
+    throw new Error(`Node 24 or newer is needed, or 22 from 22.13, or 20 from 20.19; this is ${node}`);
   }
   if (!nodePackagesMatch()) await runOrThrow('npm', ['ci']);
 }
