@@ -5,8 +5,8 @@ import path from 'node:path';
 import { findBrowser } from './browser.mjs';
 import { outputOf, python, root, run, runOrThrow } from './run.mjs';
 
-/** The oldest Python, major and minor. */
-const MIN_PYTHON = /** @type {const} */ ([3, 11]);
+/** The minor versions of Python 3 that the pinned packages are built for: the oldest and the newest. */
+const PYTHON_MINORS = /** @type {const} */ ([11, 14]);
 
 /**
  * Whether the pinned packages run on a version of Node. On others npm leaves out programs that the build needs.
@@ -56,10 +56,14 @@ export async function installPythonPackages() {
 
   console.log('PyTorch comes with its CUDA libraries, about 2.7 GB: this takes minutes, once.');
   const uv = (await outputOf('uv', ['--version'])) !== undefined;
-  if (!existsSync(python)) {
+  // One whose Python is gone, is too old or has no pip can't be repaired.
+  const usable =
+    (await supportedPython(python)) !== undefined &&
+    (uv || (await outputOf(python, ['-m', 'pip', '--version'])) !== undefined);
+  if (!usable) {
     const interpreter = await findPython();
-    if (uv) await runOrThrow('uv', ['venv', '--python', interpreter, '.venv']);
-    else await runOrThrow(interpreter, ['-m', 'venv', '.venv']);
+    if (uv) await runOrThrow('uv', ['venv', '--clear', '--python', interpreter, '.venv']);
+    else await runOrThrow(interpreter, ['-m', 'venv', '--clear', '.venv']);
   }
   if (uv) await runOrThrow('uv', ['pip', 'sync', '--python', python, pins]);
   else await runOrThrow(python, ['-m', 'pip', 'install', '--no-deps', '-r', pins]);
@@ -69,16 +73,32 @@ export async function installPythonPackages() {
   writeFileSync(stamp, hash);
 }
 
-/** The path of a Python that is new enough. */
+/**
+ * The path of a Python that the pinned packages are built for.
+ *
+ * @throws when there is none
+ */
 async function findPython() {
-  const script = 'import sys; print(*sys.version_info[:2], sys.executable, sep="\\n")';
-  for (const name of ['python3', 'python3.13', 'python3.12', 'python3.11', 'python']) {
-    const [major, minor, executable] = (await outputOf(name, ['-c', script]))?.split(/\r?\n/) ?? [];
-    if (executable && Number(major) === MIN_PYTHON[0] && Number(minor) >= MIN_PYTHON[1]) return executable;
+  const [oldest, newest] = PYTHON_MINORS;
+  const named = Array.from({ length: newest - oldest + 1 }, (_, older) => `python3.${newest - older}`);
+  for (const name of ['python3', ...named, 'python']) {
+    const executable = await supportedPython(name);
+    if (executable !== undefined) return executable;
   }
   throw new Error(
-    `Python ${MIN_PYTHON.join('.')} or newer is needed and none was found: install python3 with venv`,
+    `Python 3.${oldest} to 3.${newest} is needed and none was found: install one of them, with venv`,
   );
+}
+
+/**
+ * @param {string} name of an interpreter, or its path
+ * @returns {Promise<string | undefined>} its path, or undefined when it isn't there or its version isn't supported
+ */
+async function supportedPython(name) {
+  const script = 'import sys; print(*sys.version_info[:2], sys.executable, sep="\\n")';
+  const [major, minor, executable] = (await outputOf(name, ['-c', script]))?.split(/\r?\n/) ?? [];
+  const [oldest, newest] = PYTHON_MINORS;
+  return Number(major) === 3 && Number(minor) >= oldest && Number(minor) <= newest ? executable : undefined;
 }
 
 /** Finds a Chromium for the browser tests, or installs one. */
