@@ -1,3 +1,5 @@
+import type { Vec3 } from '../../motion/math/vec3';
+
 /** A closed surface of quads, before it is smoothed and cut into triangles. */
 export interface Net {
   /** vertices x 3, metres. */
@@ -32,6 +34,11 @@ const EDGES: readonly (readonly [number, number])[] = [
   [2, 6],
   [3, 7],
 ];
+/** Places of the corners in their cell, from 0 to 1. */
+const CORNERS = Array.from(
+  { length: 8 },
+  (_, corner) => [corner & 1, (corner >> 1) & 1, corner >> 2] as const,
+);
 /** Corners of each face in order around it. */
 const FACES: readonly (readonly [number, number, number, number])[] = [
   [0, 2, 6, 4],
@@ -48,30 +55,57 @@ const EDGE_OF = Int8Array.from({ length: 64 }, (_, pair) =>
 );
 const edgeOf = (a: number, b: number): number => EDGE_OF[a + 8 * b]!;
 
+/** Which corners of a cell are inside the surface is told by the bits of a number, one for each corner. */
+const ALL_INSIDE = 255;
+const isInside = (inside: number, corner: number): boolean => ((inside >> corner) & 1) === 1;
+
 /**
- * For each of the 256 configurations of the corners: which sheet of the surface each edge belongs to (-1: not crossed).
- * A cell crossed by two sheets gets two vertices, so that sheets which only touch stay apart and the mesh is a
- * manifold (dual marching cubes, Nielson 2004).
+ * Pairs of edges around a face that the same sheet of the surface crosses. Where it crosses all four, a sheet cuts off
+ * each of the corners that are inside.
  */
-const SHEETS: readonly Int8Array[] = Array.from({ length: 256 }, (_, inside) => {
-  const isIn = (corner: number): boolean => ((inside >> corner) & 1) === 1;
-  const group = EDGES.map(([a, b], edge) => (isIn(a) === isIn(b) ? -1 : edge));
-  const join = (a: number, b: number): void => {
+function pairsOnFace(face: (typeof FACES)[number], inside: number): (readonly [number, number])[] {
+  const edges = face.map((corner, i) => edgeOf(corner, face[(i + 1) % 4]!));
+  const isIn = face.map((corner) => isInside(inside, corner));
+  const crossed = edges.filter((_, i) => isIn[i] !== isIn[(i + 1) % 4]);
+  if (crossed.length === 0) return [];
+  if (crossed.length === 2) return [[crossed[0]!, crossed[1]!]];
+  return [0, 1, 2, 3].filter((i) => isIn[i]).map((i) => [edges[(i + 3) % 4]!, edges[i]!]);
+}
+
+/** Which sheet of the surface crosses each edge of a cell, from 0; -1 where none does. */
+function sheetsOf(inside: number): Int8Array {
+  const group = EDGES.map(([a, b], edge) => (isInside(inside, a) === isInside(inside, b) ? -1 : edge));
+  for (const [a, b] of FACES.flatMap((face) => pairsOnFace(face, inside))) {
     const [from, to] = [group[a]!, group[b]!];
     for (let edge = 0; edge < 12; edge++) if (group[edge] === from) group[edge] = to;
-  };
-  for (const face of FACES) {
-    const crossed = face
-      .map((corner, i) => edgeOf(corner, face[(i + 1) % 4]!))
-      .filter((edge) => group[edge] !== -1);
-    if (crossed.length === 2) join(crossed[0]!, crossed[1]!);
-    if (crossed.length === 4)
-      for (let i = 0; i < 4; i++)
-        if (isIn(face[i]!)) join(edgeOf(face[(i + 3) % 4]!, face[i]!), edgeOf(face[i]!, face[(i + 1) % 4]!));
   }
   const names = [...new Set(group.filter((g) => g >= 0))];
-  return Int8Array.from(group, (g) => (g < 0 ? -1 : names.indexOf(g)));
-});
+  return Int8Array.from(group, (g) => names.indexOf(g));
+}
+
+/**
+ * The sheet at each edge, for each of the 256 ways in which corners are inside. A cell crossed by two sheets gets two
+ * vertices, so that sheets which only touch stay apart and the mesh is a manifold (dual marching cubes, Nielson 2004).
+ */
+const SHEETS = Array.from({ length: 256 }, (_, inside) => sheetsOf(inside));
+/** The same the other way round: the edges that each sheet crosses. */
+const SHEET_EDGES: readonly (readonly (readonly number[])[])[] = SHEETS.map((sheets) =>
+  Array.from({ length: Math.max(...sheets) + 1 }, (_, sheet) =>
+    [...sheets.keys()].filter((edge) => sheets[edge] === sheet),
+  ),
+);
+
+/** The vertices of a net, and where to find those of a cell. Cells go by the node at their corner 0. */
+interface Vertices {
+  /** vertices x 3, metres. */
+  readonly positions: Float32Array;
+  /** The cells that the surface crosses, in the order of their nodes. */
+  readonly cells: readonly number[];
+  /** First vertex of each of these cells, by node; those of its sheets follow each other. */
+  readonly first: Int32Array;
+  /** Which corners of each of these cells are inside, by node. */
+  readonly inside: Uint8Array;
+}
 
 /**
  * Meshes the zero level of a grid of distances with surface nets (Gibson 1998): one vertex per sheet and cell, one quad
@@ -79,78 +113,105 @@ const SHEETS: readonly Int8Array[] = Array.from({ length: 256 }, (_, inside) => 
  * one sheet passes twice through the same face of two cells do four triangles meet in an edge.
  */
 export function surfaceNets(grid: Grid): Net {
+  const vertices = verticesOf(grid);
+  return { positions: vertices.positions, quads: quadsBetween(vertices, grid) };
+}
+
+/** Steps in the values of a grid to the next node along x, y and z. */
+function stridesOf({ size: [nx, ny] }: Grid): Vec3 {
+  return [1, nx, nx * ny];
+}
+
+/** Puts a vertex on each sheet of the surface in each cell. */
+function verticesOf(grid: Grid): Vertices {
   const { values, size, origin, cell } = grid;
   const [nx, ny, nz] = size;
-  const strides = [1, nx, nx * ny] as const;
-  const corners = Array.from(
-    { length: 8 },
-    (_, c) => (c & 1) * strides[0] + ((c >> 1) & 1) * strides[1] + ((c >> 2) & 1) * strides[2],
-  );
+  const [sx, sy, sz] = stridesOf(grid);
+  const corners = CORNERS.map(([x, y, z]) => x * sx + y * sy + z * sz);
   const positions: number[] = [];
-  /** First vertex and configuration of each crossed cell. */
-  const first = new Int32Array(values.length).fill(-1);
-  const config = new Uint8Array(values.length);
-  const sum = new Float64Array(3 * 4);
-  const count = new Uint8Array(4);
+  const cells: number[] = [];
+  const first = new Int32Array(values.length);
+  const inside = new Uint8Array(values.length);
 
+  const addCell = (x: number, y: number, z: number): void => {
+    const at = x * sx + y * sy + z * sz;
+    const bits = cornersInside(values, at, corners);
+    if (bits === 0 || bits === ALL_INSIDE) return;
+    cells.push(at);
+    first[at] = positions.length / 3;
+    inside[at] = bits;
+    for (const edges of SHEET_EDGES[bits]!) {
+      const mean = meanCrossing(values, at, corners, edges);
+      positions.push(
+        origin[0] + (x + mean[0]) * cell,
+        origin[1] + (y + mean[1]) * cell,
+        origin[2] + (z + mean[2]) * cell,
+      );
+    }
+  };
   for (let z = 0; z < nz - 1; z++)
-    for (let y = 0; y < ny - 1; y++)
-      for (let x = 0; x < nx - 1; x++) {
-        const at = x + y * strides[1] + z * strides[2];
-        let inside = 0;
-        for (let c = 0; c < 8; c++) if (values[at + corners[c]!]! < 0) inside |= 1 << c;
-        if (inside === 0 || inside === 255) continue;
-        const sheets = SHEETS[inside]!;
-        sum.fill(0);
-        count.fill(0);
-        for (let e = 0; e < 12; e++) {
-          const sheet = sheets[e]!;
-          if (sheet < 0) continue;
-          const [a, b] = EDGES[e]!;
-          const va = values[at + corners[a]!]!;
-          const vb = values[at + corners[b]!]!;
-          const t = va / (va - vb);
-          for (let axis = 0; axis < 3; axis++) {
-            const pa = (a >> axis) & 1;
-            sum[sheet * 3 + axis]! += pa + t * (((b >> axis) & 1) - pa);
-          }
-          count[sheet]!++;
-        }
-        first[at] = positions.length / 3;
-        config[at] = inside;
-        for (let sheet = 0; sheet < 4 && count[sheet]! > 0; sheet++) {
-          const n = count[sheet]!;
-          positions.push(
-            origin[0] + (x + sum[sheet * 3]! / n) * cell,
-            origin[1] + (y + sum[sheet * 3 + 1]! / n) * cell,
-            origin[2] + (z + sum[sheet * 3 + 2]! / n) * cell,
-          );
-        }
-      }
+    for (let y = 0; y < ny - 1; y++) for (let x = 0; x < nx - 1; x++) addCell(x, y, z);
+  return { positions: Float32Array.from(positions), cells, first, inside };
+}
 
-  const vertex = (at: number, a: number, b: number): number =>
-    first[at]! + SHEETS[config[at]!]![edgeOf(a, b)]!;
+/** @param corners steps from the cell's node to its corners, in the values of the grid */
+function cornersInside(values: Float32Array, at: number, corners: readonly number[]): number {
+  let inside = 0;
+  for (let corner = 0; corner < 8; corner++) if (values[at + corners[corner]!]! < 0) inside |= 1 << corner;
+  return inside;
+}
+
+/** Mean of the points where the surface crosses some edges of a cell, in cells from its corner 0. */
+function meanCrossing(
+  values: Float32Array,
+  at: number,
+  corners: readonly number[],
+  edges: readonly number[],
+): Vec3 {
+  let x = 0;
+  let y = 0;
+  let z = 0;
+  for (const edge of edges) {
+    const [a, b] = EDGES[edge]!;
+    const va = values[at + corners[a]!]!;
+    const vb = values[at + corners[b]!]!;
+    const t = va / (va - vb);
+    const start = CORNERS[a]!;
+    const end = CORNERS[b]!;
+    x += start[0] + t * (end[0] - start[0]);
+    y += start[1] + t * (end[1] - start[1]);
+    z += start[2] + t * (end[2] - start[2]);
+  }
+  return [x / edges.length, y / edges.length, z / edges.length];
+}
+
+/** Joins the vertices of the four cells around each edge of the grid that the surface crosses; quads x 4. */
+function quadsBetween({ cells, first, inside }: Vertices, grid: Grid): Uint32Array {
+  const strides = stridesOf(grid);
   const quads: number[] = [];
-  for (let z = 1; z < nz - 1; z++)
-    for (let y = 1; y < ny - 1; y++)
-      for (let x = 1; x < nx - 1; x++) {
-        const at = x + y * strides[1] + z * strides[2];
-        const starts = values[at]! < 0;
-        for (let axis = 0; axis < 3; axis++) {
-          if (starts === values[at + strides[axis]!]! < 0) continue;
-          // The four cells around the edge, in order around the axis; `u` and `v` are the two other axes.
-          const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
-          const [su, sv] = [strides[u]!, strides[v]!];
-          const [bu, bv, bw] = [1 << u, 1 << v, 1 << axis];
-          const p = vertex(at, 0, bw);
-          const q = vertex(at - su, bu, bu | bw);
-          const r = vertex(at - su - sv, bu | bv, bu | bv | bw);
-          const s = vertex(at - sv, bv, bv | bw);
-          if (starts) quads.push(p, q, r, s);
-          else quads.push(p, s, r, q);
-        }
-      }
-  return { positions: Float32Array.from(positions), quads: Uint32Array.from(quads) };
+  /** The vertex of a cell on the sheet that crosses its edge between two corners. */
+  const vertex = (at: number, a: number, b: number): number =>
+    first[at]! + SHEETS[inside[at]!]![edgeOf(a, b)]!;
+
+  // Each edge belongs to the cell at whose node it starts.
+  for (const at of cells) {
+    const startsInside = grid.values[at]! < 0;
+    for (let axis = 0; axis < 3; axis++) {
+      const endsInside = grid.values[at + strides[axis]!]! < 0;
+      if (startsInside === endsInside) continue;
+      // The four cells around the edge, in order around the axis; `u` and `v` are the two other axes.
+      const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+      const [su, sv] = [strides[u]!, strides[v]!];
+      const [bu, bv, bw] = [1 << u, 1 << v, 1 << axis];
+      const p = vertex(at, 0, bw);
+      const q = vertex(at - su, bu, bu | bw);
+      const r = vertex(at - su - sv, bu | bv, bu | bv | bw);
+      const s = vertex(at - sv, bv, bv | bw);
+      if (startsInside) quads.push(p, q, r, s);
+      else quads.push(p, s, r, q);
+    }
+  }
+  return Uint32Array.from(quads);
 }
 
 /** Cuts quads along their shorter diagonals; triangles x 3, counter-clockwise seen from outside. */
