@@ -1,4 +1,4 @@
-import { smoothstep } from '../../motion/math/vec3';
+import { readVec, scale, smoothstep, type Vec3, writeVec } from '../../motion/math/vec3';
 import { J } from '../../motion/skeleton/skeleton';
 import { anatomy } from './anatomy';
 import { bindPose } from './bind-pose';
@@ -52,41 +52,55 @@ export function buildBody(offsets: ArrayLike<number>, build: Build): BodyMesh {
 
 /** Distances on the grid, exact near the surface and only right in sign elsewhere. */
 function sample(shapes: readonly Shape[]): Grid {
+  const { size, origin } = extentOf(shapes);
+  const grid: Grid = {
+    values: new Float32Array(size[0] * size[1] * size[2]).fill(1),
+    size,
+    origin,
+    cell: CELL,
+  };
+  for (let z = 0; z < size[2]; z += BLOCK)
+    for (let y = 0; y < size[1]; y += BLOCK)
+      for (let x = 0; x < size[0]; x += BLOCK) fillBlock(grid, [x, y, z], shapes);
+  return grid;
+}
+
+/** Size and origin of a grid that holds all shapes, with two cells to spare. */
+function extentOf(shapes: readonly Shape[]): Pick<Grid, 'size' | 'origin'> {
   const balls = shapes.flatMap((shape) => shape.bounds);
   const low = [0, 1, 2].map((axis) => Math.min(...balls.map((b) => b.centre[axis]! - b.radius)) - 2 * CELL);
   const high = [0, 1, 2].map((axis) => Math.max(...balls.map((b) => b.centre[axis]! + b.radius)) + 2 * CELL);
   // Node planes mirror at x = 0, so that a symmetric skeleton gets a symmetric body.
   const half = Math.ceil(Math.max(high[0]!, -low[0]!) / CELL);
-  const size = [
-    2 * half + 1,
-    Math.ceil((high[1]! - low[1]!) / CELL) + 1,
-    Math.ceil((high[2]! - low[2]!) / CELL) + 1,
-  ] as const;
-  const origin = [-half * CELL, low[1]!, low[2]!] as const;
-  const values = new Float32Array(size[0] * size[1] * size[2]).fill(1);
-  const radius = (BLOCK * CELL * Math.sqrt(3)) / 2;
+  return {
+    size: [
+      2 * half + 1,
+      Math.ceil((high[1]! - low[1]!) / CELL) + 1,
+      Math.ceil((high[2]! - low[2]!) / CELL) + 1,
+    ],
+    origin: [-half * CELL, low[1]!, low[2]!],
+  };
+}
 
-  for (let bz = 0; bz < size[2]; bz += BLOCK)
-    for (let by = 0; by < size[1]; by += BLOCK)
-      for (let bx = 0; bx < size[0]; bx += BLOCK) {
-        const x = origin[0] + (bx + (BLOCK - 1) / 2) * CELL;
-        const y = origin[1] + (by + (BLOCK - 1) / 2) * CELL;
-        const z = origin[2] + (bz + (BLOCK - 1) / 2) * CELL;
-        const local = shapesNear(shapes, x, y, z, radius);
-        if (local.length === 0) continue;
-        // Distances to stretched solids are bounds; the factor keeps blocks that they might misjudge.
-        if (distance(local, x, y, z) > 1.6 * radius) continue;
-        for (let k = bz; k < Math.min(bz + BLOCK, size[2]); k++)
-          for (let j = by; j < Math.min(by + BLOCK, size[1]); j++)
-            for (let i = bx; i < Math.min(bx + BLOCK, size[0]); i++)
-              values[i + size[0] * (j + size[1] * k)] = distance(
-                local,
-                origin[0] + i * CELL,
-                origin[1] + j * CELL,
-                origin[2] + k * CELL,
-              );
-      }
-  return { values, size, origin, cell: CELL };
+/** Writes the distances at the nodes of a block, the first of which is given, unless the block is away from the body. */
+function fillBlock({ values, size, origin }: Grid, [bx, by, bz]: Vec3, shapes: readonly Shape[]): void {
+  const radius = (BLOCK * CELL * Math.sqrt(3)) / 2;
+  const x = origin[0] + (bx + (BLOCK - 1) / 2) * CELL;
+  const y = origin[1] + (by + (BLOCK - 1) / 2) * CELL;
+  const z = origin[2] + (bz + (BLOCK - 1) / 2) * CELL;
+  const local = shapesNear(shapes, x, y, z, radius);
+  if (local.length === 0) return;
+  // Distances to stretched solids are bounds; the factor keeps blocks that they might misjudge.
+  if (distance(local, x, y, z) > 1.6 * radius) return;
+  for (let k = bz; k < Math.min(bz + BLOCK, size[2]); k++)
+    for (let j = by; j < Math.min(by + BLOCK, size[1]); j++)
+      for (let i = bx; i < Math.min(bx + BLOCK, size[0]); i++)
+        values[i + size[0] * (j + size[1] * k)] = distance(
+          local,
+          origin[0] + i * CELL,
+          origin[1] + j * CELL,
+          origin[2] + k * CELL,
+        );
 }
 
 /** Rounds of Laplacian smoothing and projection of the vertices. */
@@ -100,65 +114,67 @@ const NORMAL_STEP = 0.005;
  * there. The smoothing keeps thin parts, such as hands, free of the steps of the grid.
  */
 function relax(net: Net, shapes: readonly Shape[]): Float32Array {
-  const { positions, quads } = net;
-  const count = positions.length / 3;
-  const normals = new Float32Array(positions.length);
-  const gradient = new Float64Array(4);
-  const mean = new Float32Array(positions.length);
-  const links = new Float32Array(count);
-  const close = Array.from({ length: count }, (_, v) =>
-    shapesNear(shapes, positions[v * 3]!, positions[v * 3 + 1]!, positions[v * 3 + 2]!, 2 * CELL),
+  const { positions } = net;
+  const close = Array.from({ length: positions.length / 3 }, (_, v) =>
+    shapesNear(shapes, ...readVec(positions, v), 2 * CELL),
   );
-  for (const from of quads) links[from]!++;
+  for (let round = 0; round < ROUNDS; round++) {
+    smooth(net);
+    project(positions, close);
+  }
+  return normalsAt(positions, close);
+}
 
-  for (let round = 0; round <= ROUNDS; round++) {
-    const last = round === ROUNDS;
-    if (!last) {
-      mean.fill(0);
-      for (let side = 0; side < quads.length; side++) {
-        const from = quads[side]! * 3;
-        const to = quads[side % 4 === 3 ? side - 3 : side + 1]! * 3;
-        for (let axis = 0; axis < 3; axis++) mean[from + axis]! += positions[to + axis]!;
-      }
-      for (let i = 0; i < positions.length; i++)
-        positions[i]! += 0.5 * (mean[i]! / links[Math.floor(i / 3)]! - positions[i]!);
-    }
-    for (let v = 0; v < positions.length; v += 3) {
-      const step = last ? NORMAL_STEP : PROJECTION_STEP;
-      gradientAt(close[v / 3]!, step, positions[v]!, positions[v + 1]!, positions[v + 2]!, gradient);
-      const [gx, gy, gz, off] = [gradient[0]!, gradient[1]!, gradient[2]!, gradient[3]!];
-      const steep = Math.max(gx * gx + gy * gy + gz * gz, 1e-6);
-      if (last) {
-        const norm = 1 / Math.sqrt(steep);
-        normals[v] = gx * norm;
-        normals[v + 1] = gy * norm;
-        normals[v + 2] = gz * norm;
-        continue;
-      }
-      const along = Math.max(-0.5 * CELL, Math.min(0.5 * CELL, off)) / steep;
-      positions[v]! -= gx * along;
-      positions[v + 1]! -= gy * along;
-      positions[v + 2]! -= gz * along;
-    }
+/** Moves each vertex half of the way to the mean of its neighbours (in place). */
+function smooth({ positions, quads }: Net): void {
+  const sums = new Float32Array(positions.length);
+  const links = new Float32Array(positions.length / 3);
+  for (let side = 0; side < quads.length; side++) {
+    const from = quads[side]!;
+    const to = quads[side % 4 === 3 ? side - 3 : side + 1]!;
+    links[from]!++;
+    for (let axis = 0; axis < 3; axis++) sums[from * 3 + axis]! += positions[to * 3 + axis]!;
+  }
+  for (let i = 0; i < positions.length; i++)
+    positions[i]! += 0.5 * (sums[i]! / links[Math.floor(i / 3)]! - positions[i]!);
+}
+
+/**
+ * Moves each vertex along the gradient towards the surface, by half a cell at most (in place).
+ *
+ * @param close the shapes near each vertex
+ */
+function project(positions: Float32Array, close: readonly (readonly Shape[])[]): void {
+  for (const [v, shapes] of close.entries()) {
+    const { gradient, value } = fieldAt(shapes, readVec(positions, v), PROJECTION_STEP);
+    const along = Math.max(-0.5 * CELL, Math.min(0.5 * CELL, value)) / steepness(gradient);
+    for (let axis = 0; axis < 3; axis++) positions[v * 3 + axis]! -= gradient[axis]! * along;
+  }
+}
+
+/** Normals of the field at the vertices, vertices x 3. */
+function normalsAt(positions: Float32Array, close: readonly (readonly Shape[])[]): Float32Array {
+  const normals = new Float32Array(positions.length);
+  for (const [v, shapes] of close.entries()) {
+    const { gradient } = fieldAt(shapes, readVec(positions, v), NORMAL_STEP);
+    writeVec(normals, v, scale(gradient, 1 / Math.sqrt(steepness(gradient))));
   }
   return normals;
 }
 
-/** Gradient of the field and its value, from the corners of a small tetrahedron: four samples instead of seven. */
-function gradientAt(
-  shapes: readonly Shape[],
-  e: number,
-  x: number,
-  y: number,
-  z: number,
-  out: Float64Array,
-): void {
+/** Squared length of a gradient, kept from 0. */
+function steepness([x, y, z]: Vec3): number {
+  return Math.max(x * x + y * y + z * z, 1e-6);
+}
+
+/** The field around a point, from the corners of a small tetrahedron `e` away: four samples instead of seven. */
+function fieldAt(shapes: readonly Shape[], [x, y, z]: Vec3, e: number): { gradient: Vec3; value: number } {
   const a = distance(shapes, x + e, y - e, z - e);
   const b = distance(shapes, x - e, y - e, z + e);
   const c = distance(shapes, x - e, y + e, z - e);
   const d = distance(shapes, x + e, y + e, z + e);
-  out[0] = (a - b - c + d) / (4 * e);
-  out[1] = (-a - b + c + d) / (4 * e);
-  out[2] = (-a + b - c + d) / (4 * e);
-  out[3] = (a + b + c + d) / 4;
+  return {
+    gradient: [(a - b - c + d) / (4 * e), (-a - b + c + d) / (4 * e), (-a + b - c + d) / (4 * e)],
+    value: (a + b + c + d) / 4,
+  };
 }

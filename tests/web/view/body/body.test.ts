@@ -1,6 +1,7 @@
 import { beforeAll, describe, expect, it } from 'vitest';
 import { Line3, Matrix4, Vector3 } from 'three';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
+import { median, percentile } from '../../../../web/motion/math/statistics';
 import { bindPose } from '../../../../web/view/body/bind-pose';
 import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import { buildBody, CELL, type BodyMesh } from '../../../../web/view/body/mesh';
@@ -61,6 +62,16 @@ describe.each(['leader', 'reactor', 'child'])('the body of a %s', (name) => {
       if (face.dot(normal) < 0) against++;
     }
     expect(against).toBeLessThan(indices.length / 3 / 200);
+  });
+
+  it('has vertices evenly over its surface: hardly a triangle is much smaller than the others', () => {
+    const { positions, indices } = bodies.get(name)!;
+    const areas: number[] = [];
+    for (let t = 0; t < indices.length; t += 3) {
+      const [a, b, c] = [0, 1, 2].map((i) => new Vector3().fromArray(positions, indices[t + i]! * 3));
+      areas.push(b!.sub(a!).cross(c!.sub(a!)).length() / 2);
+    }
+    expect(percentile(areas, 1) / median(areas)).toBeGreaterThan(0.3);
   });
 
   it('is moved by at most four joints whose shares sum to 1', () => {
