@@ -126,24 +126,48 @@ export function readC3dFile(bytes: Uint8Array): C3d {
   }
 }
 
-function readMarkers(bytes: Uint8Array, start: number): C3d {
-  const numbers = new Numbers(bytes, bytes[start + 3]!);
+/** What the first block of a file says about its data. */
+interface Head {
+  readonly points: number;
+  /** Factor of whole numbers; below 0 where the numbers are floats. */
+  readonly scale: number;
+  /** First byte of the data, and bytes of a frame. */
+  readonly data: number;
+  readonly row: number;
+  /** Number of frames; null where it has more than the block can state. */
+  readonly stated: number | null;
+}
+
+function headOf(numbers: Numbers): Head {
   const points = numbers.uint16(2);
   const analog = numbers.uint16(4);
   const [first, last] = [numbers.uint16(6), numbers.uint16(8)];
   const scale = numbers.float(12);
-  const data = (numbers.uint16(16) - 1) * BLOCK;
+  return {
+    points,
+    scale,
+    data: (numbers.uint16(16) - 1) * BLOCK,
+    row: (points * 4 + analog) * wordBytes(scale),
+    // A file of more than 65,535 frames says so elsewhere; what is there counts.
+    stated: last >= first && last < 65_535 ? last - first + 1 : null,
+  };
+}
+
+/** Bytes of a number of a marker. */
+function wordBytes(scale: number): number {
+  return scale < 0 ? 4 : 2;
+}
+
+function readMarkers(bytes: Uint8Array, start: number): C3d {
+  const numbers = new Numbers(bytes, bytes[start + 3]!);
+  const head = headOf(numbers);
+  const { points, data, row, stated } = head;
   const parameters = parametersOf(bytes, start, numbers);
   const labels = ['POINT:LABELS', 'POINT:LABELS2', 'POINT:LABELS3'].flatMap((name) =>
     textsOf(bytes, parameters.get(name)),
   );
   const rateParameter = parameters.get('POINT:RATE');
   const rate = rateParameter?.type === 4 ? numbers.float(rateParameter.data) : numbers.float(20);
-  const isFloat = scale < 0;
-  const width = isFloat ? 4 : 2;
-  const row = (points * 4 + analog) * width;
-  // A file of more than 65,535 frames says so elsewhere; what is there counts.
-  const stated = last >= first && last < 65_535 ? last - first + 1 : null;
   const there = row > 0 && data > 0 ? Math.floor((bytes.length - data) / row) : 0;
   const frames = Math.min(stated ?? there, there);
   if (points === 0 || labels.length === 0 || !(frames > 0)) throw damagedC3d('it holds no markers');
@@ -154,31 +178,44 @@ function readMarkers(bytes: Uint8Array, start: number): C3d {
       'Export a shorter part of the dance.',
     );
   }
-  const places = new Float32Array(frames * points * 3);
-  for (let frame = 0; frame < frames; frame++)
-    for (let point = 0; point < points; point++) {
-      const at = data + frame * row + point * 4 * width;
-      const value = (i: number): number =>
-        isFloat ? numbers.float(at + 4 * i) : numbers.int16(at + 2 * i) * scale;
-      // The fourth word is below 0 where the marker was not seen; some programs only leave its place at 0.
-      const seen =
-        (isFloat ? numbers.float(at + 12) : numbers.int16(at + 6)) >= 0 &&
-        (value(0) !== 0 || value(1) !== 0 || value(2) !== 0);
-      for (let axis = 0; axis < 3; axis++)
-        places[(frame * points + point) * 3 + axis] = seen ? value(axis) : NaN;
-    }
-  // What fills the last block up looks like frames in which no marker was seen.
-  const size = points * 3;
-  const isUnseen = (frame: number): boolean =>
-    places.subarray(frame * size, (frame + 1) * size).every(Number.isNaN);
-  let kept = frames;
-  while (stated === null && kept > 0 && isUnseen(kept - 1)) kept--;
+  const places = placesOf(numbers, head, frames);
   return {
     labels: Array.from({ length: points }, (_, point) => labels[point] ?? `*${point}`),
-    frames: kept,
+    // What fills the last block up looks like frames in which no marker was seen.
+    frames: stated === null ? seenFrames(places, points * 3) : frames,
     stated,
     rate,
     unit: textsOf(bytes, parameters.get('POINT:UNITS'))[0] ?? 'mm',
     places,
   };
+}
+
+/** The places of all markers, frames x points x 3. */
+function placesOf(numbers: Numbers, { points, scale, data, row }: Head, frames: number): Float32Array {
+  const places = new Float32Array(frames * points * 3);
+  for (let frame = 0; frame < frames; frame++)
+    for (let point = 0; point < points; point++) {
+      const at = data + frame * row + point * 4 * wordBytes(scale);
+      places.set(placeAt(numbers, at, scale), (frame * points + point) * 3);
+    }
+  return places;
+}
+
+const UNSEEN = [NaN, NaN, NaN];
+
+/** The place of a marker that is written from a byte on: three numbers and a word about them. */
+function placeAt(numbers: Numbers, at: number, scale: number): number[] {
+  const isFloat = scale < 0;
+  const word = (i: number): number => (isFloat ? numbers.float(at + 4 * i) : numbers.int16(at + 2 * i));
+  const factor = isFloat ? 1 : scale;
+  const place = [word(0) * factor, word(1) * factor, word(2) * factor];
+  // The fourth word is below 0 where the marker was not seen; some programs only leave its place at 0.
+  return word(3) >= 0 && place.some((value) => value !== 0) ? place : UNSEEN;
+}
+
+/** Number of frames up to the last one in which a marker was seen. */
+function seenFrames(places: Float32Array, size: number): number {
+  let frames = places.length / size;
+  while (frames > 0 && places.subarray((frames - 1) * size, frames * size).every(Number.isNaN)) frames--;
+  return frames;
 }
