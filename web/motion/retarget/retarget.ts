@@ -167,6 +167,14 @@ function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): 
   return (frame) => rotate(turn(frame), step);
 }
 
+/** Place of a side's toe in a frame, y up: that of the file, or an estimate. */
+function toePlace(body: Body, side: (typeof SIDES)[number], trunk: number): (frame: number) => Vec3 {
+  const toe = body.toes[side];
+  if (toe !== null) return (frame) => nodeAt(body, frame, toe);
+  const step = estimatedToe(body, side, trunk);
+  return (frame) => add(jointAt(body, frame, `${side}_ankle`), step(frame));
+}
+
 /**
  * Retargets the body of a file to the SMPL skeleton: its 22 joints over time, in the file's unit, y up; those that the
  * file lacks are estimated.
@@ -174,10 +182,9 @@ function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): 
  * @returns frames x 22 x 3, and the names of the estimated joints
  */
 export function retarget(body: Body): { positions: Float64Array; estimated: JointName[] } {
-  const { map, motion, toes } = body;
-  const estimatedToes = new Map<string, (frame: number) => Vec3>();
+  const { map, motion } = body;
   const trunk = length(sub(neckAndHead(body, 0).neck, spineLine(body, 0, ZERO)[0]!));
-  for (const side of SIDES) if (toes[side] === null) estimatedToes.set(side, estimatedToe(body, side, trunk));
+  const toes = { left: toePlace(body, 'left', trunk), right: toePlace(body, 'right', trunk) };
 
   const positions = new Float64Array(motion.frames * SMPL22.length * 3);
   for (let frame = 0; frame < motion.frames; frame++) {
@@ -195,19 +202,18 @@ export function retarget(body: Body): { positions: Float64Array; estimated: Join
       const collar = `${side}_collar` as const;
       if (!map.nodes.has(collar))
         put(collar, lerp(neck, jointAt(body, frame, `${side}_shoulder`), COLLAR_SHARE));
-      const ankle = map.nodes.get(`${side}_ankle`)!;
-      const toe = toes[side];
-      const foot =
-        toe === null
-          ? add(nodeAt(body, frame, ankle), estimatedToes.get(side)!(frame))
-          : nodeAt(body, frame, toe);
-      put(`${side}_foot`, foot);
+      put(`${side}_foot`, toes[side](frame));
     }
   }
+  return { positions, estimated: estimatedJoints(body) };
+}
+
+/** The joints that the file lacks. */
+function estimatedJoints({ map, toes }: Body): JointName[] {
   const read = new Set<JointName>(map.nodes.keys());
   for (const side of SIDES) {
     if (toes[side] === null) read.delete(`${side}_foot`);
     else read.add(`${side}_foot`);
   }
-  return { positions, estimated: SMPL22.filter((name) => !read.has(name)) };
+  return SMPL22.filter((name) => !read.has(name));
 }
