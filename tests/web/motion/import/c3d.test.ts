@@ -46,6 +46,16 @@ test('a marker at the origin was not seen, whatever its residual', async () => {
   expect(worstMillimetres(file, expected)).toBeLessThan(WORST + 10);
 });
 
+test('a marker with a residual below 0 was not seen, wherever it is said to be', () => {
+  const bytes = writeC3d(dance);
+  const view = new DataView(bytes.buffer);
+  const data = (view.getUint16(16, true) - 1) * 512;
+  view.setFloat32(data + 12, -1, true);
+  const { places } = readC3dFile(bytes);
+  expect([...places.subarray(0, 3)]).toEqual([NaN, NaN, NaN]);
+  expect(places.subarray(3, 6).some(Number.isNaN)).toBe(false);
+});
+
 test('what fills up the last block of a file of more than 65,535 frames is no frame', () => {
   const bytes = writeC3d(dance);
   new DataView(bytes.buffer).setUint16(8, 65_535, true);

@@ -1,4 +1,5 @@
 import { AppError } from '../../../common/error';
+import { type Vec3, writeVec } from '../../math/vec3';
 import { MAX_VALUES } from '../positions';
 
 const BLOCK = 512;
@@ -196,19 +197,19 @@ function placesOf(numbers: Numbers, { points, scale, data, row }: Head, frames: 
   for (let frame = 0; frame < frames; frame++)
     for (let point = 0; point < points; point++) {
       const at = data + frame * row + point * 4 * wordBytes(scale);
-      places.set(placeAt(numbers, at, scale), (frame * points + point) * 3);
+      writeVec(places, frame * points + point, placeAt(numbers, at, scale));
     }
   return places;
 }
 
-const UNSEEN = [NaN, NaN, NaN];
+const UNSEEN: Vec3 = [NaN, NaN, NaN];
 
 /** The place of a marker that is written from a byte on: three numbers and a word about them. */
-function placeAt(numbers: Numbers, at: number, scale: number): number[] {
+function placeAt(numbers: Numbers, at: number, scale: number): Vec3 {
   const isFloat = scale < 0;
   const word = (i: number): number => (isFloat ? numbers.float(at + 4 * i) : numbers.int16(at + 2 * i));
   const factor = isFloat ? 1 : scale;
-  const place = [word(0) * factor, word(1) * factor, word(2) * factor];
+  const place: Vec3 = [word(0) * factor, word(1) * factor, word(2) * factor];
   // The fourth word is below 0 where the marker was not seen; some programs only leave its place at 0.
   return word(3) >= 0 && place.some((value) => value !== 0) ? place : UNSEEN;
 }
