@@ -97,6 +97,30 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
       return Number(token);
     });
 
+  const readChannel = (name: string): string => {
+    const token = tokens.peek();
+    const channel = CHANNELS.find((known) => known.toLowerCase() === token?.toLowerCase());
+    if (channel === undefined)
+      throw invalid(`"${token ?? ''}" in ${name} is not a channel of position or rotation`);
+    return channel;
+  };
+
+  const readChannels = (name: string): string[] => {
+    if (tokens.peek()?.toUpperCase() !== 'CHANNELS') return [];
+    tokens.next();
+    const [count] = numbers(1, `the CHANNELS of ${name}`) as [number];
+    if (!Number.isInteger(count) || count < 0 || count > CHANNELS.length)
+      throw invalid(`${name} has ${count} channels; a joint has 0 to ${CHANNELS.length}`);
+    const channels: string[] = [];
+    while (channels.length < count) {
+      const channel = readChannel(name);
+      if (channels.includes(channel)) throw invalid(`${name} has the channel ${channel} twice`);
+      channels.push(channel);
+      tokens.next();
+    }
+    return channels;
+  };
+
   const readNode = (parent: number, endSite: boolean, depth: number): void => {
     if (depth > MAX_DEPTH) throw invalid(`joints are nested more than ${MAX_DEPTH} deep`);
     const written = tokens.restOfLine();
@@ -104,24 +128,8 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
     if (name === '') throw invalid('a joint has no name');
     if (tokens.next() !== '{') throw invalid(`expected "{" after ${name}`);
     if (tokens.next()?.toUpperCase() !== 'OFFSET') throw invalid(`${name} has no OFFSET`);
-    const [x, y, z] = numbers(3, `the OFFSET of ${name}`) as [number, number, number];
-    const channels: string[] = [];
-    if (tokens.peek()?.toUpperCase() === 'CHANNELS') {
-      tokens.next();
-      const [count] = numbers(1, `the CHANNELS of ${name}`) as [number];
-      if (!Number.isInteger(count) || count < 0 || count > CHANNELS.length)
-        throw invalid(`${name} has ${count} channels; a joint has 0 to ${CHANNELS.length}`);
-      for (let i = 0; i < count; i++) {
-        const token = tokens.peek();
-        const channel = CHANNELS.find((known) => known.toLowerCase() === token?.toLowerCase());
-        if (channel === undefined)
-          throw invalid(`"${token ?? ''}" in ${name} is not a channel of position or rotation`);
-        if (channels.includes(channel)) throw invalid(`${name} has the channel ${channel} twice`);
-        channels.push(channel);
-        tokens.next();
-      }
-    }
-    const index = nodes.push({ name, endSite, parent, offset: [x, y, z], channels }) - 1;
+    const offset = numbers(3, `the OFFSET of ${name}`) as [number, number, number];
+    const index = nodes.push({ name, endSite, parent, offset, channels: readChannels(name) }) - 1;
     for (;;) {
       const keyword = tokens.next()?.toUpperCase();
       if (keyword === '}') return;

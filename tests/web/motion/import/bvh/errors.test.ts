@@ -190,6 +190,8 @@ describe('an invalid skeleton', () => {
   test.each([
     [/\tOFFSET/, '\tOFFSETS', 'has no OFFSET'],
     [/Xrotation/, 'Xscale', '"Xscale" in mixamorig:Hips is not a channel'],
+    [/Xrotation/, 'Zrotation', 'mixamorig:Hips has the channel Zrotation twice'],
+    [/CHANNELS 6/, 'CHANNELS 7', 'mixamorig:Hips has 7 channels; a joint has 0 to 6'],
     [/JOINT/, 'BONE', 'expected JOINT, End Site or "}" in mixamorig:Hips, found "BONE"'],
     [/ROOT/, 'START', 'expected ROOT, found "START"'],
   ])('%s', (what, by, message) => expectFailure(good.replace(what, by), 'bad-hierarchy', message));
