@@ -55,20 +55,25 @@ export function tensorsOf({
 
 /** Says in a clause what differs between the tensors that a manifest declares and those it needs; null where nothing does. */
 export function shapeProblem(manifest: Manifest): string | null {
-  for (const [name, needed] of Object.entries(tensorsOf(manifest)) as [GraphName, Tensors][]) {
-    const declared = manifest.graphs[name];
+  for (const [name, needed] of Object.entries(tensorsOf(manifest)) as [GraphName, Tensors][])
     for (const kind of ['inputs', 'outputs'] as const)
       for (const [tensor, shape] of Object.entries(needed[kind])) {
-        const found = Object.hasOwn(declared[kind], tensor) ? declared[kind][tensor]! : null;
+        const declared = manifest.graphs[name][kind];
+        const found = Object.hasOwn(declared, tensor) ? declared[tensor]! : null;
         const what = `"${tensor}" of the graph "${name}"`;
         if (found === null) return `has no ${what} among its ${kind}`;
-        const fits = (length: number | null, axis: number): boolean =>
-          length === null ? typeof found[axis] === 'string' : found[axis] === length;
-        if (found.length !== shape.length || !shape.every(fits))
+        if (!fits(found, shape))
           return `declares ${what} as ${text(found)}, where its other fields make it ${text(shape)}`;
       }
-  }
   return null;
+}
+
+/** Whether a declared shape is the needed one; an axis of any length is declared by a name. */
+function fits(found: readonly (string | number)[], shape: Shape): boolean {
+  if (found.length !== shape.length) return false;
+  return shape.every((length, axis) =>
+    length === null ? typeof found[axis] === 'string' : found[axis] === length,
+  );
 }
 
 function text(shape: readonly (string | number | null)[]): string {

@@ -40,6 +40,16 @@ describe('parseManifest', () => {
     ['block', (json) => void (json.latent.block = 60), '"x" of the graph "step"'],
     ['features', (json) => void (json.audio.features = 54), '"music" of the graph "condition"'],
     ['streams', (json) => void json.latent.streams.pop(), '"gains" of the graph "decode"'],
+    [
+      'an axis too many',
+      (json) => void json.graphs.step.inputs['keep']!.push(1),
+      '"keep" of the graph "step"',
+    ],
+    [
+      'an axis of one length where any is needed',
+      (json) => void (json.graphs.condition.inputs['music_valid']![0] = 240),
+      '"music_valid" of the graph "condition"',
+    ],
   ])('compares %s with what the graphs take', (_, change, words) => {
     expect(failure(change).message).toContain(`declares ${words} as `);
   });
