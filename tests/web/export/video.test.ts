@@ -230,3 +230,21 @@ test('a video has the first pair of codecs that the browser has, and no sound wi
     vi.unstubAllGlobals();
   }
 });
+
+test('without WebCodecs a video is recorded, where the browser can', async () => {
+  const size = { width: 320, height: 180 };
+  try {
+    const isTypeSupported = (type: string): boolean => type.includes('vp8');
+    vi.stubGlobal('MediaRecorder', { isTypeSupported });
+    vi.stubGlobal('HTMLCanvasElement', class {});
+    expect(await planVideo(size, true)).toBeNull();
+    vi.stubGlobal('HTMLCanvasElement', { prototype: { captureStream: () => null } });
+    expect(await planVideo(size, true)).toEqual({
+      way: 'record',
+      container: 'webm',
+      type: 'video/webm;codecs=vp8,opus',
+    });
+  } finally {
+    vi.unstubAllGlobals();
+  }
+});

@@ -38,15 +38,22 @@ const RECORDED = [
 ] as const;
 
 /** The first way of writing a video that this browser supports; null when there is none. */
-export async function plan({ width, height }: PictureSize, withSound: boolean): Promise<VideoPlan | null> {
-  if ('VideoEncoder' in globalThis) {
-    for (const { container, video, audio } of ENCODED) {
-      const canVideo = await canEncodeVideo(video, { width, height });
-      if (!canVideo) continue;
-      const canAudio = !withSound || (audio === 'aac' ? await canEncodeAac() : await canEncodeAudio(audio));
-      if (canAudio) return { way: 'encode', container, video, audio: withSound ? audio : null };
-    }
+export async function plan(size: PictureSize, withSound: boolean): Promise<VideoPlan | null> {
+  return (await encodePlan(size, withSound)) ?? recordPlan();
+}
+
+async function encodePlan({ width, height }: PictureSize, withSound: boolean): Promise<VideoPlan | null> {
+  if (!('VideoEncoder' in globalThis)) return null;
+  for (const { container, video, audio } of ENCODED) {
+    const canVideo = await canEncodeVideo(video, { width, height });
+    if (!canVideo) continue;
+    const canAudio = !withSound || (audio === 'aac' ? await canEncodeAac() : await canEncodeAudio(audio));
+    if (canAudio) return { way: 'encode', container, video, audio: withSound ? audio : null };
   }
+  return null;
+}
+
+function recordPlan(): VideoPlan | null {
   if (!('MediaRecorder' in globalThis) || !('captureStream' in HTMLCanvasElement.prototype)) return null;
   const supported = RECORDED.find(({ type }) => MediaRecorder.isTypeSupported(type));
   return supported ? { way: 'record', ...supported } : null;
