@@ -47,26 +47,49 @@ export function blend(
   { guidance, musicGuidance, variety }: Weights,
   latent: Latent,
 ): Float32Array {
-  const { conditional, silent, unconditional, mean } = branches;
-  const [layers, streams] = [latent.layers.length, latent.streams.length];
-  const perStream = latent.channels / streams;
-  const out = conditional.slice();
-  if (silent && musicGuidance !== 0)
-    for (let i = 0; i < out.length; i++) out[i]! += musicGuidance * (conditional[i]! - silent[i]!);
-  if (mean && variety !== 1)
-    for (const [i, value] of mean.entries()) {
-      const at = Math.floor(i / latent.channels) * layers * latent.channels + (i % latent.channels);
-      out[at]! += (variety - 1) * (conditional[at]! - value);
-    }
-  if (!unconditional) return out;
-  for (let stream = 0; stream < streams; stream++) {
-    const weight = guidance[stream * layers] ?? 0;
+  const out = branches.conditional.slice();
+  addMusicGuidance(out, branches, musicGuidance);
+  addVariety(out, branches, variety, latent);
+  addCoarseGuidance(out, branches, guidance, latent);
+  return out;
+}
+
+/** m (cond - silent), in all layers. */
+function addMusicGuidance(out: Float32Array, { conditional, silent }: Branches, weight: number): void {
+  if (!silent || weight === 0) return;
+  for (let i = 0; i < out.length; i++) out[i]! += weight * (conditional[i]! - silent[i]!);
+}
+
+/** (v - 1)(cond - mean), in the coarse layer, which is the first of each latent. */
+function addVariety(
+  out: Float32Array,
+  { conditional, mean }: Branches,
+  variety: number,
+  { layers, channels }: Latent,
+): void {
+  if (!mean || variety === 1) return;
+  for (const [i, value] of mean.entries()) {
+    const at = Math.floor(i / channels) * layers.length * channels + (i % channels);
+    out[at]! += (variety - 1) * (conditional[at]! - value);
+  }
+}
+
+/** s (cond - uncond), in the coarse layer, with the weight of each stream for its share of the channels. */
+function addCoarseGuidance(
+  out: Float32Array,
+  { conditional, unconditional }: Branches,
+  guidance: Float32Array,
+  { streams, layers, channels }: Latent,
+): void {
+  if (!unconditional) return;
+  const perStream = channels / streams.length;
+  for (let stream = 0; stream < streams.length; stream++) {
+    const weight = guidance[stream * layers.length] ?? 0;
     if (weight === 0) continue;
-    for (let first = stream * perStream; first < out.length; first += layers * latent.channels)
+    for (let first = stream * perStream; first < out.length; first += layers.length * channels)
       for (let i = first; i < first + perStream; i++)
         out[i]! += weight * (conditional[i]! - unconditional[i]!);
   }
-  return out;
 }
 
 /**
