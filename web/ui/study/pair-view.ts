@@ -31,6 +31,13 @@ function areShown({ waiting, failed }: PairState): boolean {
   return waiting === null && !failed;
 }
 
+/** A button does what it says itself, and a space chooses what has the focus. */
+function isForElement({ key, target }: KeyboardEvent): boolean {
+  if (target instanceof HTMLButtonElement) return true;
+  const isUnchosen = target instanceof HTMLInputElement && target.type === 'radio' && !target.checked;
+  return key === ' ' && isUnchosen;
+}
+
 /** The questions beside the stage, and the transport below them. */
 export class PairView {
   readonly element: HTMLElement;
@@ -117,27 +124,29 @@ export class PairView {
   handleKey(event: KeyboardEvent): boolean {
     const state = this.#state;
     if (!state || event.ctrlKey || event.metaKey || event.altKey) return false;
-    const target = event.target instanceof HTMLElement ? event.target : null;
     const choice = CHOICES[Number(event.key) - 1];
-    const isReady = areShown(state);
-    if (choice) {
-      // A key that is held answers one question.
-      if (!isReady || event.repeat) return false;
-      const { criteria, answers } = state;
-      const focused = target instanceof HTMLInputElement ? target.name : '';
-      const question =
-        criteria.find(({ id }) => !answers.has(id)) ?? criteria.find(({ id }) => id === focused);
-      if (question) this.actions.answer(question.id, choice.score);
-      return question !== undefined;
-    }
-    // A button does what it says itself, and a space chooses what has the focus.
-    const isUnchosen = target instanceof HTMLInputElement && target.type === 'radio' && !target.checked;
-    if (target instanceof HTMLButtonElement || (event.key === ' ' && isUnchosen)) return false;
-    if (event.key === ' ' && isReady) {
-      if (!event.repeat) this.actions.togglePlay();
-    } else if (event.repeat) return false;
-    else if (event.key === 'Enter' && !this.#next.disabled) this.actions.next();
-    else if (event.key === 'Backspace' && state.number > 0) this.actions.back();
+    if (choice) return this.#answerByKey(state, choice.score, event);
+    return !isForElement(event) && this.#act(state, event);
+  }
+
+  /** Answers the next open question, else the one in focus; false where there is none. */
+  #answerByKey(state: PairState, score: number, { repeat, target }: KeyboardEvent): boolean {
+    // A key that is held answers one question.
+    if (!areShown(state) || repeat) return false;
+    const { criteria, answers } = state;
+    const focused = target instanceof HTMLInputElement ? target.name : '';
+    const question = criteria.find(({ id }) => !answers.has(id)) ?? criteria.find(({ id }) => id === focused);
+    if (question) this.actions.answer(question.id, score);
+    return question !== undefined;
+  }
+
+  /** Plays or pauses, goes on or goes back; false for other keys, and where this is not possible. */
+  #act(state: PairState, { key, repeat }: KeyboardEvent): boolean {
+    if (key === ' ' && areShown(state)) {
+      if (!repeat) this.actions.togglePlay();
+    } else if (repeat) return false;
+    else if (key === 'Enter' && !this.#next.disabled) this.actions.next();
+    else if (key === 'Backspace' && state.number > 0) this.actions.back();
     else return false;
     return true;
   }
