@@ -82,6 +82,47 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
   await decodeClip(session, manifest, { latents, leader, gains, role: 0 });
 }
 
+/** The browser did not keep the files of a model. */
+function notCached(reason: unknown): Status {
+  const name = reason instanceof Error ? reason.name : String(reason);
+  const remedy = name === 'QuotaExceededError' ? 'free some storage' : 'let this site keep data';
+  return {
+    kind: 'notice',
+    code: 'not-cached',
+    message: `The browser could not keep the model (${name}).`,
+    hint: `It works, but is downloaded again at the next visit; ${remedy} to avoid that.`,
+  };
+}
+
+/**
+ * Opens a session on WebGPU and checks it.
+ * @param check says in a main clause what is wrong with a session; null where nothing is
+ * @returns the session, or in a main clause why WebGPU cannot be used here
+ * @throws {AppError} what has nothing to do with WebGPU
+ */
+async function openOnGpu(
+  open: () => Promise<ModelSession>,
+  check: (session: ModelSession) => Promise<string | null>,
+): Promise<ModelSession | string> {
+  let session: ModelSession | undefined;
+  let failure: string | null;
+  try {
+    session = await open();
+    failure = await check(session);
+    if (failure === null) return session;
+  } catch (error) {
+    const isLost = error instanceof AppError && error.code === 'gpu-lost';
+    if (error instanceof AppError && !isLost) throw error;
+    // What onnxruntime throws from WebAssembly is a bare number, which tells nobody anything.
+    const why = error instanceof Error ? ` (${error.message})` : '';
+    failure = `The graphs do not run on WebGPU here${why}`;
+    // Releasing what was on a lost GPU might never end.
+    if (isLost) return failure;
+  }
+  await session?.release();
+  return failure;
+}
+
 /**
  * Fetches, verifies, opens and tests a model.
  * @param scope the worker's global scope
@@ -109,47 +150,27 @@ export async function loadModel(
         onStatus({ kind: 'download', parts });
       },
       onCacheFailure: (reason) => {
-        const name = reason instanceof Error ? reason.name : String(reason);
-        const remedy = name === 'QuotaExceededError' ? 'free some storage' : 'let this site keep data';
-        onStatus({
-          kind: 'notice',
-          code: 'not-cached',
-          message: `The browser could not keep the model (${name}).`,
-          hint: `It works, but is downloaded again at the next visit; ${remedy} to avoid that.`,
-        });
+        onStatus(notCached(reason));
       },
     });
     await onStatus({ kind: 'open' });
     return openSession(manifest, graphs, provider, backend.threads, runtime);
   };
+  const goldenProblem = async (session: ModelSession): Promise<string | null> => {
+    onStatus({ kind: 'check' });
+    const [golden] = await downloadFiles(manifest, [manifest.golden], place);
+    const error = await goldenError(manifest, session, readGolden(golden!));
+    onStatus({ kind: 'checked', error });
+    // Not a number is a failure too.
+    if (error <= GOLDEN_TOLERANCE) return null;
+    return `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
+  };
 
   let session: ModelSession | undefined;
   if (backend.name === 'webgpu') {
-    let failure: string | undefined;
-    let lost = false;
-    try {
-      session = await open('webgpu');
-      onStatus({ kind: 'check' });
-      const [golden] = await downloadFiles(manifest, [manifest.golden], place);
-      const error = await goldenError(manifest, session, readGolden(golden!));
-      onStatus({ kind: 'checked', error });
-      // Written so that NaN is a failure too.
-      if (!(error <= GOLDEN_TOLERANCE)) {
-        failure = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
-      }
-    } catch (error) {
-      lost = error instanceof AppError && error.code === 'gpu-lost';
-      if (error instanceof AppError && !lost) throw error;
-      // What onnxruntime throws from WebAssembly is a bare number, which tells nobody anything.
-      const why = error instanceof Error ? ` (${error.message})` : '';
-      failure = `The graphs do not run on WebGPU here${why}`;
-    }
-    if (failure !== undefined) {
-      backend = fallBackToWasm(backend, failure);
-      // Releasing what was on a lost GPU might never end.
-      if (!lost) await session?.release();
-      session = undefined;
-    }
+    const opened = await openOnGpu(() => open('webgpu'), goldenProblem);
+    if (typeof opened === 'string') backend = fallBackToWasm(backend, opened);
+    else session = opened;
   }
   session ??= await open('wasm');
   // The golden check has warmed a GPU up.
