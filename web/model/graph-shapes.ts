@@ -55,17 +55,33 @@ export function tensorsOf({
 
 /** Says in a clause what differs between the tensors that a manifest declares and those it needs; null where nothing does. */
 export function shapeProblem(manifest: Manifest): string | null {
-  for (const [name, needed] of Object.entries(tensorsOf(manifest)) as [GraphName, Tensors][])
-    for (const kind of ['inputs', 'outputs'] as const)
-      for (const [tensor, shape] of Object.entries(needed[kind])) {
-        const declared = manifest.graphs[name][kind];
-        const found = Object.hasOwn(declared, tensor) ? declared[tensor]! : null;
-        const what = `"${tensor}" of the graph "${name}"`;
-        if (found === null) return `has no ${what} among its ${kind}`;
-        if (!fits(found, shape))
-          return `declares ${what} as ${text(found)}, where its other fields make it ${text(shape)}`;
-      }
+  for (const { graph, kind, tensor, shape } of neededTensors(manifest)) {
+    const declared = manifest.graphs[graph][kind];
+    const found = Object.hasOwn(declared, tensor) ? declared[tensor]! : null;
+    const what = `"${tensor}" of the graph "${graph}"`;
+    if (found === null) return `has no ${what} among its ${kind}`;
+    if (!fits(found, shape))
+      return `declares ${what} as ${text(found)}, where its other fields make it ${text(shape)}`;
+  }
   return null;
+}
+
+/** A tensor with its name and that of its graph. */
+interface NamedTensor {
+  readonly graph: GraphName;
+  readonly kind: keyof Tensors;
+  readonly tensor: string;
+  readonly shape: Shape;
+}
+
+/** All tensors of all graphs, in order. */
+function neededTensors(manifest: Manifest): NamedTensor[] {
+  const graphs = Object.entries(tensorsOf(manifest)) as [GraphName, Tensors][];
+  return graphs.flatMap(([graph, tensors]) =>
+    (['inputs', 'outputs'] as const).flatMap((kind) =>
+      Object.entries(tensors[kind]).map(([tensor, shape]) => ({ graph, kind, tensor, shape })),
+    ),
+  );
 }
 
 /** Whether a declared shape is the needed one; an axis of any length is declared by a name. */
