@@ -68,13 +68,14 @@ export function readFrames(
     frameLines.push(text);
   }
   if (frameLines.length < stated) return endedAfter(stated, frameLines);
-  const warnings =
-    extra > 0
-      ? [
-          `${extra} ${extra === 1 ? 'frame' : 'frames'} beyond the ${stated} that the file states ${extra === 1 ? 'was' : 'were'} left out.`,
-        ]
-      : [];
+  const warnings = extra > 0 ? [leftOut(extra, stated)] : [];
   return { frameLines, warnings, truncated: false };
+}
+
+/** The sentence about frames beyond those that the file states. */
+function leftOut(extra: number, stated: number): string {
+  const [frames, were] = extra === 1 ? ['frame', 'was'] : ['frames', 'were'];
+  return `${extra} ${frames} beyond the ${stated} that the file states ${were} left out.`;
 }
 
 /** The error in a line of numbers; null when there is none. */
