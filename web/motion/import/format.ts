@@ -4,6 +4,16 @@ export type MotionFormat = 'bvh' | 'fbx' | 'gltf' | 'vmd' | 'amc' | 'c3d' | 'num
 /** Bytes from which `motionFormat` tells a format. */
 export const FORMAT_BYTES = 512;
 
+/** How files begin, whatever they are called. */
+const MARKS: readonly (readonly [RegExp, MotionFormat])[] = [
+  [/^\s*HIERARCHY\b/i, 'bvh'],
+  [/^(Kaydara FBX Binary|\s*; FBX)/, 'fbx'],
+  [/^glTF/, 'gltf'],
+  [/^Vocaloid Motion Data/, 'vmd'],
+  [/^\u0093NUMPY/, 'numpy'],
+  [/^PathFileType/, 'trc'],
+];
+
 const ENDINGS: readonly (readonly [RegExp, MotionFormat])[] = [
   [/\.bvh$/i, 'bvh'],
   [/\.fbx$/i, 'fbx'],
@@ -26,12 +36,8 @@ export const MOTION_ENDINGS =
  */
 export function motionFormat(head: Uint8Array, name: string): MotionFormat | null {
   const text = String.fromCharCode(...head.subarray(0, FORMAT_BYTES)).replace(/^\u00ef\u00bb\u00bf/, '');
-  if (/^\s*HIERARCHY\b/i.test(text)) return 'bvh';
-  if (text.startsWith('Kaydara FBX Binary') || /^\s*; FBX/.test(text)) return 'fbx';
-  if (text.startsWith('glTF')) return 'gltf';
-  if (text.startsWith('Vocaloid Motion Data')) return 'vmd';
-  if (text.startsWith('\u0093NUMPY')) return 'numpy';
-  if (text.startsWith('PathFileType')) return 'trc';
+  const marked = MARKS.find(([mark]) => mark.test(text));
+  if (marked) return marked[1];
   if (text.startsWith('PK')) return /\.npz$/i.test(name) ? 'numpy' : null;
   // A word of 0x50 follows the place of the parameters, and a C3D has no other mark.
   if (head[1] === 0x50 && /\.c3d$/i.test(name)) return 'c3d';
