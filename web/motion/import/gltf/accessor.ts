@@ -18,12 +18,8 @@ const TYPES: Readonly<Record<number, ComponentType>> = {
   5126: { bytes: 4, read: (view, at) => view.getFloat32(at, true), one: 1 },
 };
 
-/**
- * The values of an accessor, normalised integers as -1 to 1.
- *
- * @throws {AppError} `unreadable-file`
- */
-export function readAccessor({ json, buffers }: GltfFile, index: number): Float32Array {
+/** An accessor and what it refers to. */
+function accessorAt({ json, buffers }: GltfFile, index: number) {
   const accessor = json.accessors[index];
   const type = accessor && TYPES[accessor.componentType];
   const width = accessor && COMPONENTS[accessor.type];
@@ -32,18 +28,28 @@ export function readAccessor({ json, buffers }: GltfFile, index: number): Float3
   if (!accessor || !type || !width || !view || !buffer)
     throw damagedGltf(`the values number ${index} are missing or of an unknown type`);
   if (accessor.sparse !== undefined) throw damagedGltf(`the values number ${index} are sparse`);
+  return { accessor, type, width, view, buffer };
+}
+
+/**
+ * The values of an accessor, normalised integers as -1 to 1.
+ *
+ * @throws {AppError} `unreadable-file`
+ */
+export function readAccessor(file: GltfFile, index: number): Float32Array {
+  const { accessor, type, width, view, buffer } = accessorAt(file, index);
   const stride = view.byteStride ?? width * type.bytes;
   const start = view.byteOffset + accessor.byteOffset;
   const end = start + (accessor.count - 1) * stride + width * type.bytes;
   if (accessor.count > 0 && !(end <= buffer.length)) throw damagedGltf('a buffer ends too early');
   const data = new DataView(buffer.buffer, buffer.byteOffset, buffer.byteLength);
-  const factor = accessor.normalized ? 1 / type.one : 1;
+  const [factor, least] = accessor.normalized ? [1 / type.one, -1] : [1, -Infinity];
   const out = new Float32Array(accessor.count * width);
   for (let row = 0; row < accessor.count; row++)
     for (let column = 0; column < width; column++) {
       const value = type.read(data, start + row * stride + column * type.bytes) * factor;
       if (!Number.isFinite(value)) throw damagedGltf(`the values number ${index} are not all finite`);
-      out[row * width + column] = Math.max(value, accessor.normalized ? -1 : -Infinity);
+      out[row * width + column] = Math.max(value, least);
     }
   return out;
 }
