@@ -5,21 +5,30 @@
 function select(values: Float64Array, rank: number): number | undefined {
   let [low, high] = [0, values.length - 1];
   while (low < high) {
-    const pivot = values[(low + high) >> 1]!;
-    let [i, j] = [low, high];
-    while (i <= j) {
-      while (values[i]! < pivot) i++;
-      while (values[j]! > pivot) j--;
-      if (i > j) break;
-      const larger = values[i]!;
-      values[i++] = values[j]!;
-      values[j--] = larger;
-    }
-    if (rank <= j) high = j;
-    else if (rank >= i) low = i;
+    const [lowEnd, highStart] = partition(values, low, high);
+    if (rank <= lowEnd) high = lowEnd;
+    else if (rank >= highStart) low = highStart;
     else break;
   }
   return values[rank];
+}
+
+/**
+ * Reorders the values from `low` to `high` about one of them.
+ * @returns the last place of those that are not larger, and the first of those that are not smaller
+ */
+function partition(values: Float64Array, low: number, high: number): [number, number] {
+  const pivot = values[(low + high) >> 1]!;
+  let [i, j] = [low, high];
+  while (i <= j) {
+    while (values[i]! < pivot) i++;
+    while (values[j]! > pivot) j--;
+    if (i > j) break;
+    const larger = values[i]!;
+    values[i++] = values[j]!;
+    values[j--] = larger;
+  }
+  return [j, i];
 }
 
 /**
