@@ -192,6 +192,21 @@ function sizeDoubt(unit: string, size: number): string {
 /** Mean of the cosines by which feet point backwards, from which on left and right are exchanged. */
 const FEET_BACKWARDS = -0.3;
 
+/** The body, y up; where its feet point backwards with left and right exchanged, and a warning. */
+function facingBody(source: MotionSource, named: JointMap, fps: number, options: ImportOptions) {
+  const found = orientedBody(source, named, fps, options);
+  const feetAhead = medianOf(found.body, (measured) => measured.footAhead);
+  if (!(feetAhead < FEET_BACKWARDS)) return { ...found, warnings: [] };
+  if (named.by === 'hand') {
+    const doubt = 'The feet point backwards: left and right of the chosen joints may be exchanged.';
+    return { ...found, warnings: [doubt] };
+  }
+  return {
+    ...orientedBody(source, withSidesExchanged(named), fps, options),
+    warnings: ['The feet pointed backwards: left and right of this file were swapped, which is corrected.'],
+  };
+}
+
 /** Whether the dancer moves faster than people do. */
 function isHurried(clip: MotionClip): boolean {
   return clip.frames > FPS && medianAcceleration(clip) > MAX_ACCELERATION;
@@ -219,18 +234,9 @@ export function leaderOf(
   const rest = restFrames(whole, named);
   const source = withoutFirst(whole, rest);
   const fps = options.fps === undefined ? source.frameRate() : checkedRate(options.fps);
-  let { body, up, certain } = orientedBody(source, named, fps, options);
-  const warnings = [...source.warnings];
-  if (medianOf(body, (measured) => measured.footAhead) < FEET_BACKWARDS) {
-    if (named.by === 'hand') {
-      warnings.push('The feet point backwards: left and right of the chosen joints may be exchanged.');
-    } else {
-      ({ body, up, certain } = orientedBody(source, withSidesExchanged(named), fps, options));
-      warnings.push(
-        'The feet pointed backwards: left and right of this file were swapped, which is corrected.',
-      );
-    }
-  }
+  const facing = facingBody(source, named, fps, options);
+  const { body, up, certain } = facing;
+  const warnings = [...source.warnings, ...facing.warnings];
   const { map } = body;
   const unit = unitOf(source, body, options);
   const own = map.convention === OWN_CONVENTION;
