@@ -47,11 +47,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
       if (escape(store, services)) event.preventDefault();
       return;
     }
-    if (target.matches('input[type="number"], input[type="text"], select, textarea')) return;
-    const ownsArrows = target.matches('input[type="range"], input[type="radio"], [role="radio"]');
-    if (/^(Arrow|Home|End|Page)/.test(event.key) && ownsArrows) return;
-    const ownsSpace = target.matches('input[type="checkbox"], input[type="radio"], summary');
-    if (event.key === ' ' && ownsSpace) return;
+    if (ownsKey(target, event.key)) return;
     if ((event.key === ' ' || event.key === 'Enter') && isPressedByKeys(target)) return;
     if (!store.getState().letterKeys && isLetterKey(event.key)) return;
     if (press(event, store, services)) event.preventDefault();
@@ -74,6 +70,14 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     listen(window, 'keydown', () => void (keyIsLast = true), { capture: true }),
     listen(window, 'pointerdown', () => void (keyIsLast = byKey = false), { capture: true }),
   );
+}
+
+/** Whether an element does something of its own with a key: typing, or to be chosen or moved. */
+function ownsKey(element: HTMLElement, key: string): boolean {
+  if (element.matches('input[type="number"], input[type="text"], select, textarea')) return true;
+  if (/^(Arrow|Home|End|Page)/.test(key))
+    return element.matches('input[type="range"], input[type="radio"], [role="radio"]');
+  return key === ' ' && element.matches('input[type="checkbox"], input[type="radio"], summary');
 }
 
 /** Whether it is the key of a letter, a digit or a sign, which speech input may type by mistake. */
