@@ -38,9 +38,8 @@ export function withReaction(
     sameModel(before.reaction.model, reaction.model) &&
     differOnlyInWeights(before.reaction.inputs, reaction.inputs);
   const history = sameDance ? state.history : sealed(state.history);
-  // A drag ends with the reaction to where it was released; one to the way there may come before.
-  const goesOn = drag !== null && (drag.held || !sameInputs(reaction.inputs, currentInputs(state)));
-  const dragged = (take: string | null): AppState['drag'] => (goesOn ? { ...drag, take } : null);
+  const goingOn = dragAfter(state, reaction);
+  const dragged = (take: string | null): AppState['drag'] => goingOn && { ...goingOn, take };
   const keep = (take: Take): ReturnType<typeof withReaction> => ({
     takes: withTake(takes, take),
     takesMade,
@@ -75,6 +74,13 @@ export function withReaction(
     drag: dragged(take.id),
     toast: oldest.length > 0 ? removedText(oldest) : toast,
   };
+}
+
+/** The drag where it goes on: it ends with the reaction to where it was released; one to the way there may come before. */
+function dragAfter(state: AppState, reaction: Reaction): AppState['drag'] {
+  const { drag } = state;
+  if (!drag || drag.held) return drag;
+  return sameInputs(reaction.inputs, currentInputs(state)) ? null : drag;
 }
 
 /** Whether both are of the same inputs, made by the same model or ready-made. */
