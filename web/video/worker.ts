@@ -4,12 +4,12 @@ import { AppError } from '../common/error';
 import { yieldToEvents } from '../common/yield-to-events';
 import { writeBvh } from '../motion/bvh/write';
 import { checkSeen } from './checks';
-import { openVideo } from './frames';
+import { openVideo, type VideoFile } from './frames';
 import { type Observations, Recorder } from './observations';
 import { loadPoseGraphs, type PoseGraphs } from './pose/graphs';
 import { bodyBox } from './pose/detector';
 import type { Picture } from './pose/picture';
-import { PersonTracker, type PersonPick } from './pose/tracker';
+import { PersonTracker, type PersonPick, type Tracked } from './pose/tracker';
 import { adviceOn, confidenceOf } from './world/advice';
 import { type WorldOptions, reconstruct } from './world/reconstruct';
 import type { Part } from './world/series';
@@ -106,30 +106,13 @@ async function read(
     });
     const tracker = new PersonTracker(graphs, pick);
     const recorder = new Recorder(width, height);
-    const thumbnails = new Shrinker(width / height, THUMBNAIL_HEIGHT);
-    const shown = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT));
-    const from = pick?.time ?? start;
-    const isThumbnail = thumbnailTimes(end - start);
-    let reported = 0;
-    let nextPart = from + PART.first;
-    // Who was picked is not asked about again.
-    let asked = pick !== null;
+    const reportPicture = pictureReports(video, pick, report);
+    const isPart = partTimes(pick?.time ?? start);
     for await (const { time, picture } of video.pictures(pick?.time ?? 0, Infinity)) {
       const tracked = await tracker.next(picture, time);
       recorder.add(time, picture, tracked);
-      if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
-      if (!asked && tracked.persons.length > 0) {
-        asked = true;
-        const boxes = tracked.persons.map(bodyBox);
-        if (boxes.length > 1) void report({ kind: 'persons', time, boxes, image: shown.of(picture) });
-      }
-      if (performance.now() - reported > REPORT_INTERVAL_MS) {
-        reported = performance.now();
-        const landmarks = tracked.landmarks?.image.slice() ?? null;
-        void report({ kind: 'picture', time, landmarks, image: shown.of(picture) });
-      }
-      if (time >= nextPart) {
-        nextPart = from + PART.growth * (nextPart - from);
+      reportPicture(time, picture, tracked);
+      if (isPart(time)) {
         const motion = motionSoFar(recorder.observations(), options);
         if (motion) void report({ kind: 'part', motion });
       }
@@ -141,6 +124,46 @@ async function read(
   } finally {
     video.close();
   }
+}
+
+/**
+ * Reports what is seen while a video is read: small pictures for the timeline, once that there are several people, and
+ * now and then the newest picture.
+ */
+function pictureReports(
+  { start, end, width, height }: VideoFile,
+  pick: PersonPick | null,
+  report: TaskContext<ReadReport>['report'],
+): (time: number, picture: Picture, tracked: Tracked) => void {
+  const thumbnails = new Shrinker(width / height, THUMBNAIL_HEIGHT);
+  const shown = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT));
+  const isThumbnail = thumbnailTimes(end - start);
+  let reported = 0;
+  // Who was picked is not asked about again.
+  let asked = pick !== null;
+  return (time, picture, { persons, landmarks }) => {
+    if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
+    if (!asked && persons.length > 0) {
+      asked = true;
+      const boxes = persons.map(bodyBox);
+      if (boxes.length > 1) void report({ kind: 'persons', time, boxes, image: shown.of(picture) });
+    }
+    if (performance.now() - reported > REPORT_INTERVAL_MS) {
+      reported = performance.now();
+      const seen = landmarks?.image.slice() ?? null;
+      void report({ kind: 'picture', time, landmarks: seen, image: shown.of(picture) });
+    }
+  };
+}
+
+/** True for the pictures at which the motion so far is made: ever more seldom, since it takes longer each time. */
+function partTimes(from: number): (time: number) => boolean {
+  let next = from + PART.first;
+  return (time) => {
+    if (time < next) return false;
+    next = from + PART.growth * (next - from);
+    return true;
+  };
 }
 
 interface PeopleRequest extends Pick<ReadRequest, 'file' | 'graphs'> {
