@@ -23,11 +23,18 @@ const IMAGE_WEIGHT = 1;
  * @returns the series, and how many frames were changed
  */
 export function undoFlips(series: Series): { readonly series: Series; readonly changed: number } {
+  const states = cheapestStates(series);
+  const changed = states.reduce((count, one) => count + Number(one > 0), 0);
+  return { series: changed === 0 ? series : applied(series, states), changed };
+}
+
+/** The state of each frame, as places in `STATES`, for which steps and changes cost least together. */
+function cheapestStates(series: Series): Uint8Array {
   const { frames } = series;
   const metresPerPixel = imageScale(series);
-  const costs = new Float64Array(STATES.length);
+  const costs = Float64Array.from(STATES, (_, state) => changeCost(state));
+  /** For each frame and state: the state before it on the cheapest way there. */
   const from = new Uint8Array(frames * STATES.length);
-  for (let state = 1; state < STATES.length; state++) costs[state] = CHANGE_COST;
   for (let frame = 1; frame < frames; frame++) {
     const before = costs.slice();
     for (let to = 0; to < STATES.length; to++) {
@@ -38,7 +45,7 @@ export function undoFlips(series: Series): { readonly series: Series; readonly c
         best = cost;
         from[frame * STATES.length + to] = state;
       }
-      costs[to] = best + (to === 0 ? 0 : CHANGE_COST);
+      costs[to] = best + changeCost(to);
     }
   }
   const states = new Uint8Array(frames);
@@ -47,8 +54,11 @@ export function undoFlips(series: Series): { readonly series: Series; readonly c
     states[frame] = state;
     state = from[frame * STATES.length + state]!;
   }
-  const changed = states.reduce((count, one) => count + Number(one > 0), 0);
-  return { series: changed === 0 ? series : applied(series, states), changed };
+  return states;
+}
+
+function changeCost(state: number): number {
+  return state === 0 ? 0 : CHANGE_COST;
 }
 
 type State = (typeof STATES)[number];
