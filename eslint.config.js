@@ -125,6 +125,7 @@ export default defineConfig(
     rules: {
       'no-console': ['error', { allow: ['warn', 'error'] }],
       'max-lines-per-function': ['error', 80],
+      'max-depth': ['error', 4],
     },
   },
   ...Object.entries(directions).map(([folder, patterns]) => ({
