@@ -60,6 +60,17 @@ class BvhFile:
     fps: float
 
 
+def _read_channels(words: list[str], at: int, name: str, path: Path) -> tuple[str, ...]:
+    """The channels of joint `name`, whose CHANNELS is words[at]; their number follows it."""
+    count = int(words[at + 1])
+    channels = tuple(word.lower() for word in words[at + 2 : at + 2 + count])
+    if unknown := set(channels) - set(_CHANNELS):
+        raise ValueError(f"{path}: {name} has unknown channels {sorted(unknown)}")
+    if count != len(set(channels)):
+        raise ValueError(f"{path}: {name} does not have {count} different channels")
+    return channels
+
+
 def _read_hierarchy(words: list[str], path: Path) -> list[Node]:
     nodes: list[Node] = []
     parents = [-1]
@@ -89,13 +100,8 @@ def _read_hierarchy(words: list[str], path: Path) -> list[Node]:
         at += 4
         channels: tuple[str, ...] = ()
         if words[at].upper() == "CHANNELS":
-            count = int(words[at + 1])
-            channels = tuple(word.lower() for word in words[at + 2 : at + 2 + count])
-            if unknown := set(channels) - set(_CHANNELS):
-                raise ValueError(f"{path}: {name} has unknown channels {sorted(unknown)}")
-            if count != len(set(channels)):
-                raise ValueError(f"{path}: {name} does not have {count} different channels")
-            at += 2 + count
+            channels = _read_channels(words, at, name, path)
+            at += 2 + len(channels)
         nodes.append(Node(name, parents[-1], (x, y, z), channels, kind == "END"))
         parents.append(len(nodes) - 1)
     if not nodes or len(parents) != 1:
