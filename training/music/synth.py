@@ -169,36 +169,35 @@ def percussion(tempo: Tempo, samples: int, rate: int, kit: Kit, rng: np.random.G
     conga = {kind: conga_stroke(rate, kit.conga_hertz, kind, rng) for kind in ("open", "slap", "soft")}
     maracas = [maracas_stroke(rate, rng) for _ in range(4)]
 
+    def play(at: float, sound: np.ndarray, level: float) -> None:
+        if level:
+            track.add(at + rng.normal(0, kit.looseness), sound, level * rng.uniform(0.8, 1.0))
+
+    def at_random(level: float) -> float:
+        return level if rng.random() < kit.density else 0.0
+
     for cycle, start in enumerate(cycle_starts(tempo, samples / rate)):
-
-        def play(position: int, sound: np.ndarray, level: float, start: float = start) -> None:
-            if level:
-                at = start + position * eighth + rng.normal(0, kit.looseness)
-                track.add(at, sound, level * rng.uniform(0.8, 1.0))
-
-        def at_random(level: float) -> float:
-            return level if rng.random() < kit.density else 0.0
-
+        times = start + eighth * np.arange(16)
         for position in kit.clave_pattern:
-            play(position, clave, kit.clave)
+            play(times[position], clave, kit.clave)
         for kind, positions in (("open", _CONGA_OPEN), ("slap", _CONGA_SLAP)):
             for position in positions:
-                play(position, conga[kind], kit.conga)
+                play(times[position], conga[kind], kit.conga)
         for position in _CONGA_SOFT:
-            play(position, conga["soft"], at_random(kit.conga))
+            play(times[position], conga["soft"], at_random(kit.conga))
         for position in _BELL_STRONG:
-            play(position, bell, kit.bell)
+            play(times[position], bell, kit.bell)
         for position in _BELL_WEAK:
-            play(position, bell, at_random(0.6 * kit.bell))
+            play(times[position], bell, at_random(0.6 * kit.bell))
         for position in range(16):
             level = kit.maracas if position % 2 == 0 else 0.5 * at_random(kit.maracas)
-            play(position, maracas[position % 4], level)
+            play(times[position], maracas[position % 4], level)
         root = kit.progression[cycle % len(kit.progression)]
         following = kit.progression[(cycle + 1) % len(kit.progression)]
         for position in _BASS:
             semitones = following if position == 14 else root + (7 if position in (3, 11) else 0)
             note = bass_note(rate, midi_hertz(kit.bass_key + semitones), 2.5 * eighth)
-            play(position, note, kit.bass)
+            play(times[position], note, kit.bass)
 
     track.samples += kit.noise * rng.standard_normal(samples)
     peak = np.abs(track.samples).max(initial=1e-9)
