@@ -97,6 +97,21 @@ def test_frame_times_mean_usual_rates(written: str, fps: float) -> None:
     assert frame_rate(written) == pytest.approx(fps, rel=1e-4)
 
 
+@pytest.mark.parametrize(
+    ("channels", "problem"),
+    [
+        ("3 Xrotation Yrotation Xrotation", "hip does not have 3 different channels"),
+        ("4 Xrotation Yrotation Zrotation", "hip has unknown channels"),
+        ("2 Xrotation Yscale", "hip has unknown channels"),
+    ],
+)
+def test_channels_that_are_not_as_stated_are_named(tmp_path: Path, channels: str, problem: str) -> None:
+    path = tmp_path / "odd.bvh"
+    path.write_text(f"HIERARCHY ROOT hip {{ OFFSET 0 0 0 CHANNELS {channels} }} MOTION")
+    with pytest.raises(ValueError, match=rf"odd\.bvh: {problem}"):
+        parse_bvh(path)
+
+
 def test_units_by_the_size_of_a_person() -> None:
     assert find_unit(1.4) == 1.0
     assert find_unit(150.0) == 0.01
