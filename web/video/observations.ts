@@ -2,7 +2,7 @@ import type { Quat } from '../motion/math/quat';
 import { CameraTurn, type Circle, circleAbout, comparedSize } from './pose/camera-turn';
 import { CutFinder } from './pose/cuts';
 import { GreyReader } from './pose/grey';
-import { LANDMARK_COUNT } from './pose/landmarks';
+import { LANDMARK_COUNT, type Landmarks } from './pose/landmarks';
 import type { Picture } from './pose/picture';
 import type { Tracked } from './pose/tracker';
 import { DEFAULT_FOCAL } from './world/camera';
@@ -34,7 +34,7 @@ export interface Observations {
 
 /** Collects observations while a video is being read. */
 export class Recorder {
-  readonly #rows: { readonly time: number; readonly tracked: Tracked; readonly turn: Quat }[] = [];
+  readonly #rows: { readonly time: number; readonly landmarks: Landmarks | null; readonly turn: Quat }[] = [];
   readonly #camera = new CameraTurn(DEFAULT_FOCAL);
   readonly #cuts = new CutFinder();
   readonly #grey: GreyReader;
@@ -55,8 +55,16 @@ export class Recorder {
     const grey = { ...this.#grey.size, values: this.#grey.read(picture) };
     if (this.#cuts.next(grey, time)) this.#camera.restart();
     const turn = this.#camera.next(grey, this.#dancer);
-    this.#rows.push({ time, tracked, turn });
+    const { landmarks, mistakenSince } = tracked;
+    if (mistakenSince !== null) this.#forget(mistakenSince);
+    this.#rows.push({ time, landmarks, turn });
     if (tracked.brightness !== null) this.#brightest = Math.max(this.#brightest ?? 0, tracked.brightness);
+  }
+
+  /** Leaves out what was seen of somebody else. */
+  #forget(since: number): void {
+    for (let row = this.#rows.length - 1; row >= 0 && this.#rows[row]!.time > since; row--)
+      this.#rows[row] = { ...this.#rows[row]!, landmarks: null };
   }
 
   /** All that was seen so far. */
@@ -76,7 +84,7 @@ export class Recorder {
       cuts: this.#cuts.times,
       brightest: this.#brightest ?? 1,
     };
-    this.#rows.forEach(({ tracked: { landmarks }, turn }, row) => {
+    this.#rows.forEach(({ landmarks, turn }, row) => {
       out.turn.set(turn, row * 4);
       if (!landmarks) return;
       out.presence[row] = landmarks.presence;

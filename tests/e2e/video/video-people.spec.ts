@@ -232,3 +232,22 @@ test('a dancer who is small in a wide picture is found, and followed by a click 
   await expect(panel.getByRole('status')).toHaveText(ready, { timeout: 60_000 });
   await expect.poll(() => skeletonAt(panel)).toBeCloseTo(0.68, 1);
 });
+
+test('who passes before somebody in other clothes is followed on, and what was seen of that one is left out', async ({
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [0, 1.3, 3.4] } satisfies Shot;
+  // The one in front is larger, so it is followed: to 0.76 of the picture's width in the end.
+  const cast = [{ away: 0.3 }, { aside: -1, away: -0.4, passing: 0.5, outfit: 'green' }] as const;
+  const seen = await studio.call('read', await studio.call('filmSeveral', 'turning', shot, 4.5, cast));
+  await studio.close();
+  const rows = [...seen.times.keys()].filter((row) => seen.presence[row]! > 0);
+  expect(rows.length / seen.times.length).toBeGreaterThan(0.9);
+  const across = (row: number): number => seen.centre[2 * row]! / shot.width;
+  const path = rows.map((row) => {
+    const x = -1 + 0.5 * seen.times[row]!;
+    return Math.abs(across(row) - (0.5 + (shot.focal * x) / 3 / shot.width));
+  });
+  expect(Math.max(...path.slice(2))).toBeLessThan(0.13);
+});

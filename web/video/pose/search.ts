@@ -81,4 +81,6 @@ function starts(length: number, side: number): number[] {
   return Array.from({ length: steps + 1 }, (_, i) => (i / steps) * (length - side));
 }
 
-const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
+export function distance(a: Point, b: Point): number {
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}

@@ -1,9 +1,11 @@
 import { distinct, type Person, personsOf } from './detector';
 import { type Landmarks, landmarksOf } from './landmarks';
 import { Cropper, type Picture } from './picture';
+import { KnownLook, type Look, lookOf } from './look';
 import type { PoseGraphs } from './graphs';
 import type { Point, Region, Square } from './region';
 import {
+  distance,
   nearestFirst,
   type Sighting,
   squareOfReach,
@@ -22,6 +24,18 @@ const SEARCH_EVERY = 3;
 const SEARCH_CLOSELY_EVERY = 30;
 /** A sighting shorter than this may be of nobody, such as of a bush: it does not say where the person is, seconds. */
 export const MIN_SIGHTING = 0.3;
+/**
+ * A look that differs from the person's by less than this share of what another one differs by is more likely theirs.
+ */
+const MORE_ALIKE = 0.6;
+/** How far beside whom is followed the person is looked for who is hidden behind them, shares of a region. */
+const BESIDE = [-0.2, 0.2, -0.35, 0.35];
+/** Sightings nearer to each other than this share of a region are of one person. */
+const SAME_PERSON = 0.12;
+/** Somebody else's look that was seen for a shorter time than this is left out, seconds: so short a gap is bridged. */
+const MAX_MISTAKE = 0.5;
+/** Who has looked strange for longer is the person, in another light, seconds: the person would have been found. */
+const MAX_UNSURE = 5;
 /** A region smaller than this share of the picture's longer side holds nobody whose pose could be seen. */
 const MIN_REGION = 0.06;
 
@@ -38,6 +52,14 @@ export interface Tracked {
   readonly persons: readonly Person[];
   /** Mean brightness of the picture, 0 to 1, where the person was looked for. */
   readonly brightness: number | null;
+  /** Somebody else was followed from this time on until now, seconds of the video; null where that was not found. */
+  readonly mistakenSince: number | null;
+}
+
+/** Somebody in a picture. */
+interface Seen {
+  readonly landmarks: Landmarks;
+  readonly look: Look;
 }
 
 /** Where the detector looks, and which of the persons there may be the one to follow, the likeliest first. */
@@ -46,11 +68,13 @@ interface Search {
   readonly candidates: (persons: readonly Person[]) => readonly Person[];
 }
 
-const NOT_SEEN: Tracked = { landmarks: null, persons: [], brightness: null };
+const NOT_SEEN: Tracked = { landmarks: null, persons: [], brightness: null, mistakenSince: null };
 
 /**
  * Follows one person through the pictures of a video: the detector finds them, then each picture's landmarks say where
- * to look in the next one. Who was lost is looked for near the place where they were seen last.
+ * to look in the next one. Who was lost is looked for near the place where they were seen last. Where a partner comes
+ * between them and the camera, the landmarks pass over to the partner: their clothes say so, and the person is looked for
+ * beside them.
  */
 export class PersonTracker {
   readonly #cropper = new Cropper();
@@ -60,6 +84,13 @@ export class PersonTracker {
   #last: Sighting | null = null;
   /** Pictures since the person was seen. */
   #unseen = 0;
+  #known = new KnownLook();
+  /** Where they looked like themselves last. */
+  #sure: Sighting | null = null;
+  /** Pictures since then. */
+  #unsure = 0;
+  /** Somebody else was seen beside them. */
+  #company = false;
 
   /** @param pick where the person stands who is to be followed; null takes the largest */
   constructor(
@@ -69,12 +100,53 @@ export class PersonTracker {
 
   /** @param time of the picture, seconds of the video */
   async next(picture: Picture, time: number): Promise<Tracked> {
-    if (this.#region) return { ...NOT_SEEN, landmarks: await this.#see(picture, time, this.#region) };
+    if (this.#region) return this.#follow(picture, time, this.#region);
     const unseen = this.#unseen++;
     if (unseen % SEARCH_EVERY > 0) return NOT_SEEN;
     this.#since = time;
     const [quick, ...close] = this.#searches(picture, time);
     return this.#find(picture, time, unseen % SEARCH_CLOSELY_EVERY > 0 ? [quick] : [quick, ...close]);
+  }
+
+  /** Who is in the region; the person instead, where that is somebody else and the person is found beside them. */
+  async #follow(picture: Picture, time: number, region: Region): Promise<Tracked> {
+    const seen = await this.#lookAt(picture, region);
+    const strangeness = seen ? this.#known.strangeness(seen.look) : 0;
+    const since = this.#sure?.time ?? time;
+    const found = seen && strangeness > 1 ? await this.#findBeside(picture, time, seen, strangeness) : null;
+    const passedBy = strangeness <= 1 && this.#company && this.#unsure > 0 && time - since < MAX_MISTAKE;
+    if (strangeness > 1 && !found && time - since > MAX_UNSURE) this.#known = new KnownLook();
+    return {
+      ...NOT_SEEN,
+      landmarks: this.#keep(found ?? seen, time),
+      mistakenSince: found || passedBy ? since : null,
+    };
+  }
+
+  /** The person, near whom somebody with a strange look is followed; null where they are not found. */
+  async #findBeside(
+    picture: Picture,
+    time: number,
+    { landmarks: { next } }: Seen,
+    strangeness: number,
+  ): Promise<Seen | null> {
+    const sure = this.#sure;
+    const unsure = ++this.#unsure;
+    // Who is alone looks strange from another side, and nobody is beside them.
+    if (!sure || !(this.#company || unsure === SEARCH_EVERY || unsure % SEARCH_CLOSELY_EVERY === 0))
+      return null;
+    const regions = [sure.region, ...BESIDE.map((aside) => ({ ...next, x: next.x + aside * next.size }))];
+    if (unsure % SEARCH_EVERY === 0) {
+      const { persons } = await this.#detect(picture, [squareOfReach(sure, time)]);
+      regions.push(...withinReach(persons, sure, time).map((person) => person.region));
+    }
+    for (const region of regions) {
+      const found = await this.#lookAt(picture, region);
+      if (!found || distance(found.landmarks.next, next) < SAME_PERSON * next.size) continue;
+      this.#company = true;
+      if (this.#known.strangeness(found.look) <= Math.min(1, MORE_ALIKE * strangeness)) return found;
+    }
+    return null;
   }
 
   /** The first is done more often than those after it. */
@@ -113,7 +185,7 @@ export class PersonTracker {
       brightest = Math.max(brightest, brightness);
       for (const { region } of candidates(persons)) {
         const landmarks = await this.#see(picture, time, region);
-        if (landmarks) return { landmarks, persons, brightness: brightest };
+        if (landmarks) return { ...NOT_SEEN, landmarks, persons, brightness: brightest };
       }
     }
     return { ...NOT_SEEN, brightness: brightest };
@@ -136,16 +208,31 @@ export class PersonTracker {
   }
 
   async #see(picture: Picture, time: number, region: Region): Promise<Landmarks | null> {
-    const landmarks = landmarksOf(
-      await this.graphs.landmarks(this.#cropper.landmarkInput(picture, region)),
-      region,
-    );
-    const { next, presence } = landmarks;
-    const seen = presence >= MIN_PRESENCE && isInside(next, picture);
-    this.#region = seen ? next : null;
+    return this.#keep(await this.#lookAt(picture, region), time);
+  }
+
+  /** Who is in a region; null where nobody is. */
+  async #lookAt(picture: Picture, region: Region): Promise<Seen | null> {
+    const input = this.#cropper.landmarkInput(picture, region);
+    const output = await this.graphs.landmarks(input);
+    const landmarks = landmarksOf(output, region);
+    const isSeen = landmarks.presence >= MIN_PRESENCE && isInside(landmarks.next, picture);
+    return isSeen ? { landmarks, look: lookOf(input, output.landmarks) } : null;
+  }
+
+  /** Follows from here on who was seen. */
+  #keep(seen: Seen | null, time: number): Landmarks | null {
+    this.#region = seen?.landmarks.next ?? null;
     if (!seen) return null;
+    const { landmarks, look } = seen;
+    const sighting = { region: landmarks.next, time };
     this.#unseen = 0;
-    if (time - this.#since >= MIN_SIGHTING) this.#last = { region: next, time };
+    if (time - this.#since >= MIN_SIGHTING) this.#last = sighting;
+    if (this.#known.strangeness(look) <= 1) {
+      this.#known.learn(look);
+      this.#sure = sighting;
+      this.#unsure = 0;
+    }
     return landmarks;
   }
 }

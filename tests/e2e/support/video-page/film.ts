@@ -28,13 +28,18 @@ import {
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import type { Shot } from '../../../web/support/filmed/shots';
-import { createMannequin } from './mannequin';
+import { createMannequin, type Outfit } from './mannequin';
 
-/** A dancer in the picture, shifted along x and backwards by metres, who is there from and until a time in seconds. */
+/**
+ * A dancer in the picture, shifted along x and backwards by metres, and along x by `passing` metres more every second, who
+ * is there from and until a time in seconds.
+ */
 export interface Cast {
   readonly motion: SolvedMotion;
   readonly aside?: number;
   readonly away?: number;
+  readonly passing?: number;
+  readonly outfit?: Outfit;
   readonly from?: number;
   readonly until?: number;
 }
@@ -175,11 +180,12 @@ export async function film(
   renderer.setPixelRatio(1);
   renderer.setSize(shot.width, shot.height);
   const scene = studio();
-  const mannequins = await Promise.all(cast.map(({ motion }) => createMannequin(motion, shot.clothed)));
-  mannequins.forEach(({ mesh, rig }, i) => {
+  const mannequins = await Promise.all(
+    cast.map(({ motion, outfit = 'red' }) => createMannequin(motion, shot.clothed ? outfit : null)),
+  );
+  mannequins.forEach(({ mesh, rig }) => {
     scene.add(mesh);
     mesh.add(rig.root);
-    mesh.position.set(cast[i]?.aside ?? 0, 0, -(cast[i]?.away ?? 0));
   });
   const fov = (2 * Math.atan(shot.height / 2 / shot.focal) * 180) / Math.PI;
   const camera = new PerspectiveCamera(fov, shot.width / shot.height, 0.1, 40);
@@ -193,7 +199,8 @@ export async function film(
     if (shot.panned !== undefined) camera.quaternion.multiply(heldTurn(shot.panned, time));
     mannequins.forEach((mannequin, i) => {
       mannequin.pose(time);
-      const { from = 0, until = Infinity } = cast[i]!;
+      const { aside = 0, away = 0, passing = 0, from = 0, until = Infinity } = cast[i]!;
+      mannequin.mesh.position.set(aside + passing * time, 0, -away);
       mannequin.mesh.visible = time >= from && time < until;
     });
     renderer.render(scene, camera);

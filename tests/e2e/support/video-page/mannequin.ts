@@ -11,8 +11,12 @@ type Colour = readonly [red: number, green: number, blue: number];
 
 const SKIN: Colour = [0.72, 0.45, 0.32];
 const HAIR: Colour = [0.05, 0.035, 0.03];
-const SHIRT: Colour = [0.55, 0.06, 0.06];
-const TROUSERS: Colour = [0.05, 0.07, 0.16];
+/** Colours of shirt and trousers. */
+const OUTFITS = {
+  red: { shirt: [0.55, 0.06, 0.06], trousers: [0.05, 0.07, 0.16] },
+  green: { shirt: [0.1, 0.35, 0.2], trousers: [0.1, 0.35, 0.2] },
+} as const satisfies Record<string, Readonly<Record<'shirt' | 'trousers', Colour>>>;
+export type Outfit = keyof typeof OUTFITS;
 const SHOES: Colour = [0.02, 0.02, 0.02];
 const EYES: Colour = [0.03, 0.03, 0.04];
 
@@ -36,13 +40,13 @@ export interface Mannequin {
 
 /**
  * Our own mannequin in motion.
- * @param clothed in the colours of a person: skin, hair, eyes, a shirt, trousers and shoes; else grey-blue all over
+ * @param outfit in the colours of a person: skin, hair, eyes, a shirt, trousers and shoes; null is grey-blue all over
  */
-export async function createMannequin(motion: SolvedMotion, clothed: boolean): Promise<Mannequin> {
+export async function createMannequin(motion: SolvedMotion, outfit: Outfit | null): Promise<Mannequin> {
   const body = await makeBody(motion.offsets, BUILDS.leader);
   const { near: geometry } = toGeometry(body);
-  if (clothed) geometry.setAttribute('color', new BufferAttribute(clothes(body), 3));
-  const material = new MeshLambertMaterial({ vertexColors: true, color: clothed ? 0xffffff : 0x4b9bd4 });
+  if (outfit) geometry.setAttribute('color', new BufferAttribute(clothes(body, outfit), 3));
+  const material = new MeshLambertMaterial({ vertexColors: true, color: outfit ? 0xffffff : 0x4b9bd4 });
   const rig = createRig();
   rig.fit(motion.offsets);
   const mesh = new SkinnedMesh(geometry, material);
@@ -62,16 +66,17 @@ export async function createMannequin(motion: SolvedMotion, clothed: boolean): P
 }
 
 /** A colour for every vertex, by the joint that moves it. */
-function clothes({ positions, skinJoints, skinWeights }: Body): Float32Array {
+function clothes({ positions, skinJoints, skinWeights }: Body, outfit: Outfit): Float32Array {
+  const { shirt, trousers } = OUTFITS[outfit];
   const colours = new Float32Array(positions.length);
   const heads: number[] = [];
   for (let v = 0; v < positions.length / 3; v++) {
     let strongest = 0;
     for (let i = 1; i < 4; i++) if (skinWeights[4 * v + i]! > skinWeights[4 * v + strongest]!) strongest = i;
     const joint = skinJoints[4 * v + strongest]!;
-    let colour = SHIRT;
+    let colour: Colour = shirt;
     if (HEAD.has(joint) || BARE_ARMS.has(joint)) colour = SKIN;
-    else if (LEGS.has(joint)) colour = TROUSERS;
+    else if (LEGS.has(joint)) colour = trousers;
     else if (joint === J.left_foot || joint === J.right_foot) colour = SHOES;
     if (joint === J.head) heads.push(v);
     colours.set(colour, 3 * v);
