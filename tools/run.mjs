@@ -61,10 +61,10 @@ export async function runOrThrow(program, args, env) {
 export function outputOf(program, args) {
   return new Promise((resolve) => {
     let output = '';
+    // None of these programs is a script of npm, which Windows would start through a shell.
     const child = spawn(program, args, {
       cwd: root,
       stdio: ['ignore', 'pipe', 'ignore'],
-      shell: needsShell(program),
     });
     child.stdout.on('data', (chunk) => (output += String(chunk)));
     child.on('error', () => resolve(undefined));
