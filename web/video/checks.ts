@@ -2,7 +2,7 @@ import { AppError } from '../common/error';
 import { median } from '../motion/math/statistics';
 import type { Observations } from './observations';
 import { LANDMARK_COUNT } from './pose/landmarks';
-import { L } from './world/landmark-names';
+import { L } from './pose/landmark-names';
 import { MAX_BRIDGE, rowsSeen } from './world/series';
 
 /** Mean brightness below which a picture counts as black. */

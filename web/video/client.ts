@@ -6,7 +6,7 @@ import type { Picture } from './pose/picture';
 import type { Point } from './pose/region';
 import type { PersonPick } from './pose/tracker';
 import { DEFAULT_FOCAL } from './world/camera';
-import { BONES } from './world/landmark-names';
+import { BONES } from './pose/landmark-names';
 import type { WorldOptions } from './world/reconstruct';
 import type { People, ReadReport, VideoMotion, VideoTasks } from './worker';
 

@@ -7,8 +7,8 @@ export const LANDMARK_COUNT = 33;
 /** Landmarks behind those of the body that give the region in the next picture: middle of the hips, and edge. */
 const CENTRE = 33;
 const EDGE = 34;
-/** Numbers of a landmark: x, y, z, visibility and presence. */
-const WIDTH = 5;
+/** Numbers of a landmark, as the graph returns it: x, y, z, visibility and presence. */
+export const LANDMARK_WIDTH = 5;
 
 /** What the landmark network saw in one picture. */
 export interface Landmarks {
@@ -37,7 +37,11 @@ export function landmarksOf(
   region: Region,
 ): Landmarks {
   const point = (i: number): { x: number; y: number } =>
-    pointInPicture(region, landmarks[i * WIDTH]! / LANDMARK_SIDE, landmarks[i * WIDTH + 1]! / LANDMARK_SIDE);
+    pointInPicture(
+      region,
+      landmarks[i * LANDMARK_WIDTH]! / LANDMARK_SIDE,
+      landmarks[i * LANDMARK_WIDTH + 1]! / LANDMARK_SIDE,
+    );
   const image = new Float32Array(LANDMARK_COUNT * 2);
   const turned = new Float32Array(LANDMARK_COUNT * 3);
   const visibility = new Float32Array(LANDMARK_COUNT);
@@ -47,7 +51,10 @@ export function landmarksOf(
     image.set([x, y], 2 * i);
     const [a, b] = [world[3 * i]!, world[3 * i + 1]!];
     turned.set([a * cos - b * sin, a * sin + b * cos, world[3 * i + 2]!], 3 * i);
-    visibility[i] = Math.min(sigmoid(landmarks[i * WIDTH + 3]!), sigmoid(landmarks[i * WIDTH + 4]!));
+    visibility[i] = Math.min(
+      sigmoid(landmarks[i * LANDMARK_WIDTH + 3]!),
+      sigmoid(landmarks[i * LANDMARK_WIDTH + 4]!),
+    );
   }
   return {
     presence: presence[0]!,

@@ -1,7 +1,7 @@
 import { distinct, type Person, personsOf } from './detector';
 import { type Landmarks, landmarksOf } from './landmarks';
 import { Cropper, type Picture } from './picture';
-import { KnownLook, type Look, lookOf } from './look';
+import { type Appearance, AppearanceModel, appearanceOf } from './appearance';
 import type { PoseGraphs } from './graphs';
 import type { Point, Region, Square } from './region';
 import {
@@ -24,18 +24,16 @@ const SEARCH_EVERY = 3;
 const SEARCH_CLOSELY_EVERY = 30;
 /** A sighting shorter than this may be of nobody, such as of a bush: it does not say where the person is, seconds. */
 export const MIN_SIGHTING = 0.3;
-/**
- * A look that differs from the person's by less than this share of what another one differs by is more likely theirs.
- */
+/** Somebody is taken for the person if they differ by less than this share of what the one who is followed differs by. */
 const MORE_ALIKE = 0.6;
 /** How far beside whom is followed the person is looked for who is hidden behind them, shares of a region. */
 const BESIDE = [-0.2, 0.2, -0.35, 0.35];
 /** Sightings nearer to each other than this share of a region are of one person. */
 const SAME_PERSON = 0.12;
-/** Somebody else's look that was seen for a shorter time than this is left out, seconds: so short a gap is bridged. */
+/** Who differs for a shorter time than this is left out where others are about, seconds: so short a gap is bridged. */
 const MAX_MISTAKE = 0.5;
-/** Who has looked strange for longer is the person, in another light, seconds: the person would have been found. */
-const MAX_UNSURE = 5;
+/** Who differs for longer is the person in another light, seconds: else the person would have been found. */
+const MAX_DIFFERENT = 5;
 /** A region smaller than this share of the picture's longer side holds nobody whose pose could be seen. */
 const MIN_REGION = 0.06;
 
@@ -59,7 +57,7 @@ export interface Tracked {
 /** Somebody in a picture. */
 interface Seen {
   readonly landmarks: Landmarks;
-  readonly look: Look;
+  readonly appearance: Appearance;
 }
 
 /** Where the detector looks, and which of the persons there may be the one to follow, the likeliest first. */
@@ -84,11 +82,11 @@ export class PersonTracker {
   #last: Sighting | null = null;
   /** Pictures since the person was seen. */
   #unseen = 0;
-  #known = new KnownLook();
-  /** Where they looked like themselves last. */
-  #sure: Sighting | null = null;
+  #model = new AppearanceModel();
+  /** Where and when their appearance was their own last. */
+  #recognised: Sighting | null = null;
   /** Pictures since then. */
-  #unsure = 0;
+  #different = 0;
   /** Somebody else was seen beside them. */
   #company = false;
 
@@ -110,12 +108,12 @@ export class PersonTracker {
 
   /** Who is in the region; the person instead, where that is somebody else and the person is found beside them. */
   async #follow(picture: Picture, time: number, region: Region): Promise<Tracked> {
-    const seen = await this.#lookAt(picture, region);
-    const strangeness = seen ? this.#known.strangeness(seen.look) : 0;
-    const since = this.#sure?.time ?? time;
-    const found = seen && strangeness > 1 ? await this.#findBeside(picture, time, seen, strangeness) : null;
-    const passedBy = strangeness <= 1 && this.#company && this.#unsure > 0 && time - since < MAX_MISTAKE;
-    if (strangeness > 1 && !found && time - since > MAX_UNSURE) this.#known = new KnownLook();
+    const seen = await this.#personIn(picture, region);
+    const difference = seen ? this.#model.difference(seen.appearance) : 0;
+    const since = this.#recognised?.time ?? time;
+    const found = seen && difference > 1 ? await this.#findBeside(picture, time, seen, difference) : null;
+    const passedBy = difference <= 1 && this.#company && this.#different > 0 && time - since < MAX_MISTAKE;
+    if (difference > 1 && !found && time - since > MAX_DIFFERENT) this.#model = new AppearanceModel();
     return {
       ...NOT_SEEN,
       landmarks: this.#keep(found ?? seen, time),
@@ -123,28 +121,31 @@ export class PersonTracker {
     };
   }
 
-  /** The person, near whom somebody with a strange look is followed; null where they are not found. */
+  /** The person, near whom somebody of another appearance is followed; null where they are not found. */
   async #findBeside(
     picture: Picture,
     time: number,
     { landmarks: { next } }: Seen,
-    strangeness: number,
+    difference: number,
   ): Promise<Seen | null> {
-    const sure = this.#sure;
-    const unsure = ++this.#unsure;
-    // Who is alone looks strange from another side, and nobody is beside them.
-    if (!sure || !(this.#company || unsure === SEARCH_EVERY || unsure % SEARCH_CLOSELY_EVERY === 0))
-      return null;
-    const regions = [sure.region, ...BESIDE.map((aside) => ({ ...next, x: next.x + aside * next.size }))];
-    if (unsure % SEARCH_EVERY === 0) {
-      const { persons } = await this.#detect(picture, [squareOfReach(sure, time)]);
-      regions.push(...withinReach(persons, sure, time).map((person) => person.region));
+    const recognised = this.#recognised;
+    const different = ++this.#different;
+    // Who is alone may differ when seen from another side, and nobody is beside them.
+    const isDue = this.#company || different === SEARCH_EVERY || different % SEARCH_CLOSELY_EVERY === 0;
+    if (!recognised || !isDue) return null;
+    const regions = [
+      recognised.region,
+      ...BESIDE.map((aside) => ({ ...next, x: next.x + aside * next.size })),
+    ];
+    if (different % SEARCH_EVERY === 0) {
+      const { persons } = await this.#detect(picture, [squareOfReach(recognised, time)]);
+      regions.push(...withinReach(persons, recognised, time).map((person) => person.region));
     }
     for (const region of regions) {
-      const found = await this.#lookAt(picture, region);
+      const found = await this.#personIn(picture, region);
       if (!found || distance(found.landmarks.next, next) < SAME_PERSON * next.size) continue;
       this.#company = true;
-      if (this.#known.strangeness(found.look) <= Math.min(1, MORE_ALIKE * strangeness)) return found;
+      if (this.#model.difference(found.appearance) <= Math.min(1, MORE_ALIKE * difference)) return found;
     }
     return null;
   }
@@ -208,30 +209,30 @@ export class PersonTracker {
   }
 
   async #see(picture: Picture, time: number, region: Region): Promise<Landmarks | null> {
-    return this.#keep(await this.#lookAt(picture, region), time);
+    return this.#keep(await this.#personIn(picture, region), time);
   }
 
   /** Who is in a region; null where nobody is. */
-  async #lookAt(picture: Picture, region: Region): Promise<Seen | null> {
+  async #personIn(picture: Picture, region: Region): Promise<Seen | null> {
     const input = this.#cropper.landmarkInput(picture, region);
     const output = await this.graphs.landmarks(input);
     const landmarks = landmarksOf(output, region);
     const isSeen = landmarks.presence >= MIN_PRESENCE && isInside(landmarks.next, picture);
-    return isSeen ? { landmarks, look: lookOf(input, output.landmarks) } : null;
+    return isSeen ? { landmarks, appearance: appearanceOf(input, output.landmarks) } : null;
   }
 
   /** Follows from here on who was seen. */
   #keep(seen: Seen | null, time: number): Landmarks | null {
     this.#region = seen?.landmarks.next ?? null;
     if (!seen) return null;
-    const { landmarks, look } = seen;
+    const { landmarks, appearance } = seen;
     const sighting = { region: landmarks.next, time };
     this.#unseen = 0;
     if (time - this.#since >= MIN_SIGHTING) this.#last = sighting;
-    if (this.#known.strangeness(look) <= 1) {
-      this.#known.learn(look);
-      this.#sure = sighting;
-      this.#unsure = 0;
+    if (this.#model.difference(appearance) <= 1) {
+      this.#model.learn(appearance);
+      this.#recognised = sighting;
+      this.#different = 0;
     }
     return landmarks;
   }

@@ -1,6 +1,6 @@
 import { FPS } from '../../motion/skeleton/clip';
 import { LANDMARK_COUNT } from '../pose/landmarks';
-import { BODY, L } from './landmark-names';
+import { BODY, L } from '../pose/landmark-names';
 import { MAX_BRIDGE, type Series } from './series';
 import { turnedBy } from './still-camera';
 

@@ -1,5 +1,5 @@
 import { LANDMARK_COUNT } from '../pose/landmarks';
-import { BODY, OTHER_SIDE } from './landmark-names';
+import { BODY, OTHER_SIDE } from '../pose/landmark-names';
 import type { Series } from './series';
 
 /**

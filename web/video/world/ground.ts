@@ -12,7 +12,7 @@ import {
   ZERO,
 } from '../../motion/math/vec3';
 import { LANDMARK_COUNT } from '../pose/landmarks';
-import { L } from './landmark-names';
+import { L } from '../pose/landmark-names';
 import type { DepthCues } from './depth';
 import type { Series } from './series';
 import { type Rays, raysOf } from './stance';

@@ -2,7 +2,7 @@ import { LANDMARK_COUNT } from '../pose/landmarks';
 import { BALL_SHARE, HEAD_SHARE, NECK_UP } from '../../motion/skeleton/landmarks';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import { add, lerp, readVec, scale, sub, type Vec3, writeVec } from '../../motion/math/vec3';
-import { L } from './landmark-names';
+import { L } from '../pose/landmark-names';
 
 /** Where joints lie between or beside landmarks, in shares of the trunk from the hips to the shoulders. */
 const PELVIS_UP = 0.17;

@@ -5,7 +5,7 @@ import { distance, readVec, scale, type Vec3, writeVec } from '../../motion/math
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import type { DepthCues } from './depth';
 import { type Ground, onFloor } from './ground';
-import { L } from './landmark-names';
+import { L } from '../pose/landmark-names';
 import { raysOf } from './stance';
 
 const LEGS = (['left', 'right'] as const).map((side) => ({

@@ -3,7 +3,7 @@ import type { ContactInterval } from '../../motion/contact/foot-contacts';
 import { gaussianFilter } from '../../motion/math/statistics';
 import { J } from '../../motion/skeleton/skeleton';
 import { LANDMARK_COUNT } from '../pose/landmarks';
-import { L } from './landmark-names';
+import { L } from '../pose/landmark-names';
 import type { Series } from './series';
 
 /**

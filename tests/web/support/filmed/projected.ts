@@ -2,7 +2,7 @@ import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import type { Observations } from '../../../../web/video/observations';
 import { LANDMARK_COUNT } from '../../../../web/video/pose/landmarks';
-import { L, OTHER_SIDE } from '../../../../web/video/world/landmark-names';
+import { L, OTHER_SIDE } from '../../../../web/video/pose/landmark-names';
 import { noise } from '../skeletons';
 
 /** A camera that stands still and looks along -z, pitched down by radians. */

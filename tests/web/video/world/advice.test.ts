@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { LANDMARK_COUNT } from '../../../../web/video/pose/landmarks';
 import { adviceOn } from '../../../../web/video/world/advice';
-import { L } from '../../../../web/video/world/landmark-names';
+import { L } from '../../../../web/video/pose/landmark-names';
 import type { Series } from '../../../../web/video/world/series';
 
 const FRAMES = 100;

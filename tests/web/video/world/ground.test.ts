@@ -3,7 +3,7 @@ import { aboutAxis, rotate } from '../../../../web/motion/math/quat';
 import { dot, type Vec3, writeVec, X_AXIS } from '../../../../web/motion/math/vec3';
 import { LANDMARK_COUNT } from '../../../../web/video/pose/landmarks';
 import { uprightOf } from '../../../../web/video/world/ground';
-import { L } from '../../../../web/video/world/landmark-names';
+import { L } from '../../../../web/video/pose/landmark-names';
 
 /** A dancer on one leg who bends far to one side, the other leg stretched out; metres, y up, feet at the origin. */
 const BALANCE: readonly (readonly [number, Vec3])[] = [

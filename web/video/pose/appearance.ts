@@ -1,16 +1,9 @@
-import { LANDMARK_SIDE } from './landmarks';
+import { L } from './landmark-names';
+import { LANDMARK_SIDE, LANDMARK_WIDTH } from './landmarks';
 
 /** Mean colours of trunk and thighs, 2 x RGB, 0 to 1: a person is told from another one by their clothes. */
-export type Look = readonly number[];
+export type Appearance = readonly number[];
 
-/** Landmarks, left and right: shoulders, hips and knees. */
-const [SHOULDERS, HIPS, KNEES] = [
-  [11, 12],
-  [23, 24],
-  [25, 26],
-] as const;
-/** Numbers of a landmark. */
-const WIDTH = 5;
 /** Where colours are taken: shares of the way down and across the trunk, and of the way from hip to knee. */
 const TRUNK = { down: [0.2, 0.4, 0.6, 0.8], across: [0.25, 0.5, 0.75] };
 const THIGH = [0.3, 0.5, 0.7];
@@ -18,14 +11,14 @@ const THIGH = [0.3, 0.5, 0.7];
 const SPREAD = 2;
 
 /**
- * A look that differs by more than this from the person's may be somebody else's. In films of mannequins in colours of
+ * An appearance that differs by more than this from the person's may be somebody else's. In films of mannequins in colours of
  * people the dancer's own differ by 0.18 at the most, mostly by less than 0.1, and a partner's in other clothes by 0.3.
  */
-const OTHER_LOOK = 0.16;
-/** So many looks are learnt before any is strange. */
-const FIRST_LOOKS = 10;
-/** Share of a new look in what is known after that. */
-const NEW_LOOK = 0.02;
+const MAX_DIFFERENCE = 0.16;
+/** So many pictures are learnt from before anybody is taken for somebody else. */
+const FIRST_PICTURES = 10;
+/** Share of a new picture in what is known after that. */
+const LEARNING_RATE = 0.02;
 
 type Place = readonly [x: number, y: number];
 
@@ -33,36 +26,41 @@ type Place = readonly [x: number, y: number];
  * @param input what the landmark network saw, 3 x 256 x 256, 0 to 1
  * @param landmarks 39 x 5 in pixels of it
  */
-export function lookOf(input: Float32Array, landmarks: Float32Array): Look {
-  const place = (i: number): Place => [landmarks[i * WIDTH]!, landmarks[i * WIDTH + 1]!];
-  const [shoulders, hips, knees] = [SHOULDERS, HIPS, KNEES].map((pair) => pair.map(place));
+export function appearanceOf(input: Float32Array, landmarks: Float32Array): Appearance {
+  const place = (i: number): Place => [landmarks[i * LANDMARK_WIDTH]!, landmarks[i * LANDMARK_WIDTH + 1]!];
+  const [leftHip, rightHip] = [place(L.left_hip), place(L.right_hip)];
   const trunk = TRUNK.across.flatMap((across) => {
-    const [top, bottom] = [shoulders!, hips!].map(([left, right]) => between(left!, right!, across));
-    return TRUNK.down.map((down) => between(top!, bottom!, down));
+    const top = between(place(L.left_shoulder), place(L.right_shoulder), across);
+    const bottom = between(leftHip, rightHip, across);
+    return TRUNK.down.map((down) => between(top, bottom, down));
   });
-  const thighs = hips!.flatMap((hip, side) => THIGH.map((down) => between(hip, knees![side]!, down)));
+  const thighs = THIGH.flatMap((down) => [
+    between(leftHip, place(L.left_knee), down),
+    between(rightHip, place(L.right_knee), down),
+  ]);
   return [...meanColour(input, trunk), ...meanColour(input, thighs)];
 }
 
 /** What a person looks like, learnt while they are followed. */
-export class KnownLook {
-  #look: Look | null = null;
-  #count = 0;
+export class AppearanceModel {
+  #known: Appearance | null = null;
+  #pictures = 0;
 
-  /** How much a look differs from the person's; one above 1 may be somebody else's. */
-  strangeness(look: Look): number {
-    return this.#look && this.#count >= FIRST_LOOKS ? difference(look, this.#look) / OTHER_LOOK : 0;
+  /** How much somebody differs from the person, as a share of what the person may; above 1 it may be somebody else. */
+  difference(appearance: Appearance): number {
+    if (!this.#known || this.#pictures < FIRST_PICTURES) return 0;
+    return colourDifference(appearance, this.#known) / MAX_DIFFERENCE;
   }
 
-  learn(look: Look): void {
-    this.#count++;
-    const share = Math.max(NEW_LOOK, 1 / this.#count);
-    this.#look = (this.#look ?? look).map((value, i) => value + share * (look[i]! - value));
+  learn(appearance: Appearance): void {
+    this.#pictures++;
+    const share = Math.max(LEARNING_RATE, 1 / this.#pictures);
+    this.#known = (this.#known ?? appearance).map((value, i) => value + share * (appearance[i]! - value));
   }
 }
 
-/** Mean distance of the colours of two looks, 0 to 1.7. */
-function difference(a: Look, b: Look): number {
+/** Mean distance of the colours of trunk and thighs, 0 to 1.7. */
+function colourDifference(a: Appearance, b: Appearance): number {
   const part = (from: number): number => Math.hypot(...[0, 1, 2].map((c) => a[from + c]! - b[from + c]!));
   return (part(0) + part(3)) / 2;
 }

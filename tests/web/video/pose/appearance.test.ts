@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { KnownLook, lookOf } from '../../../../web/video/pose/look';
+import { AppearanceModel, appearanceOf } from '../../../../web/video/pose/appearance';
 import { LANDMARK_SIDE } from '../../../../web/video/pose/landmarks';
 
 const RED = [0.8, 0.1, 0.1] as const;
@@ -29,49 +29,53 @@ function picture(above: readonly number[], below: readonly number[], line: numbe
   });
 }
 
-function expectColours(look: readonly number[], trunk: readonly number[], thighs: readonly number[]): void {
+function expectColours(
+  appearance: readonly number[],
+  trunk: readonly number[],
+  thighs: readonly number[],
+): void {
   [...trunk, ...thighs].forEach((value, i) => {
-    expect(look[i]).toBeCloseTo(value, 5);
+    expect(appearance[i]).toBeCloseTo(value, 5);
   });
 }
 
-test('a look has the colour of the trunk and of the thighs', () => {
-  expectColours(lookOf(picture(RED, BLUE, 140), standing()), RED, BLUE);
+test('an appearance has the colour of the trunk and of the thighs', () => {
+  expectColours(appearanceOf(picture(RED, BLUE, 140), standing()), RED, BLUE);
 });
 
 test('what lies outside of the picture does not count', () => {
   const landmarks = standing();
   // The left side of the body is beyond the edge.
   for (const i of [11, 23, 25]) landmarks[5 * i] = LANDMARK_SIDE + 200;
-  expectColours(lookOf(picture(RED, BLUE, 140), landmarks), RED, BLUE);
+  expectColours(appearanceOf(picture(RED, BLUE, 140), landmarks), RED, BLUE);
   landmarks.fill(-500);
-  expectColours(lookOf(picture(RED, BLUE, 140), landmarks), [0, 0, 0], [0, 0, 0]);
+  expectColours(appearanceOf(picture(RED, BLUE, 140), landmarks), [0, 0, 0], [0, 0, 0]);
 });
 
 describe('what a person looks like', () => {
   const own = [...RED, ...BLUE];
   const other = [...BLUE, ...RED];
 
-  test('no look is strange until it is known', () => {
-    const known = new KnownLook();
-    known.learn(own);
-    expect(known.strangeness(other)).toBe(0);
+  test('nobody differs from a person who is not known yet', () => {
+    const model = new AppearanceModel();
+    model.learn(own);
+    expect(model.difference(other)).toBe(0);
   });
 
-  test('somebody else in other clothes looks strange, the person does not, in light and shade', () => {
-    const known = new KnownLook();
-    for (let i = 0; i < 40; i++) known.learn(own.map((value) => value * (i % 2 === 0 ? 0.85 : 1.15)));
-    expect(known.strangeness(other)).toBeGreaterThan(2);
-    expect(known.strangeness(own.map((value) => value * 0.8))).toBeLessThan(1);
+  test('somebody else in other clothes differs, the person does not, in light and shade', () => {
+    const model = new AppearanceModel();
+    for (let i = 0; i < 40; i++) model.learn(own.map((value) => value * (i % 2 === 0 ? 0.85 : 1.15)));
+    expect(model.difference(other)).toBeGreaterThan(2);
+    expect(model.difference(own.map((value) => value * 0.8))).toBeLessThan(1);
   });
 
   test('light that changes slowly is learnt', () => {
-    const known = new KnownLook();
-    for (let i = 0; i < 20; i++) known.learn(own);
+    const model = new AppearanceModel();
+    for (let i = 0; i < 20; i++) model.learn(own);
     const dim = own.map((value) => value * 0.6);
-    const before = known.strangeness(dim);
-    for (let i = 0; i < 100; i++) known.learn(dim);
+    const before = model.difference(dim);
+    for (let i = 0; i < 100; i++) model.learn(dim);
     expect(before).toBeGreaterThan(1);
-    expect(known.strangeness(dim)).toBeLessThan(0.3);
+    expect(model.difference(dim)).toBeLessThan(0.3);
   });
 });
