@@ -5,8 +5,11 @@ import type { Manifest } from '../manifest';
 import type { DecodeInput } from './graphs';
 import { chunks } from './condition';
 
-/** Latent frames that are decoded together: bounds the memory of the convolutions. */
-const LATENTS_PER_CHUNK = 480;
+/**
+ * Latent frames that are decoded together, 85 seconds: bounds the memory of the convolutions, and how long a newer request
+ * waits. Two chunks decode what lies within each other's receptive field twice.
+ */
+const LATENTS_PER_CHUNK = 640;
 
 /** Latent frames `start` to `end`, the latter excluded. */
 export interface LatentRange {
