@@ -4,18 +4,7 @@ import { promisify } from 'node:util';
 import { brotliCompress, constants } from 'node:zlib';
 
 const compress = promisify(brotliCompress);
-const textual = new Set([
-  '.bvh',
-  '.css',
-  '.html',
-  '.js',
-  '.json',
-  '.md',
-  '.mjs',
-  '.svg',
-  '.txt',
-  '.webmanifest',
-]);
+const textual = new Set(['.bvh', '.css', '.html', '.js', '.json', '.md', '.mjs', '.svg', '.txt']);
 const binary = new Set(['.onnx', '.wasm']);
 
 /** Share of the original that a .br file has to save, or else it is not written. */
