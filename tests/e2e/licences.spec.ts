@@ -43,6 +43,51 @@ test('WebAssembly has the licences of the libraries that it was linked with', ()
       expect(section(name), name).toContain(library);
 });
 
+/** What is written about a work that is no installed package. */
+function sectionOfCopy(name: string, version: string): string {
+  const [, found = ''] = written.split(`\n${'='.repeat(80)}\n${name} ${version}\n`);
+  return found.split(`\n${'='.repeat(80)}\n`)[0] ?? '';
+}
+
+test('what three has copied from others is named', () => {
+  const copies = [
+    ...read('node_modules/three/build/three.core.js').matchAll(/copy of \w+\/(\w+) version ([\d.]+)/g),
+  ];
+  expect(copies.map(([, name]) => name)).toEqual(['earcut']);
+  for (const [, name = '', version = ''] of copies)
+    expect(sectionOfCopy(name, version), name).toContain('Copyright (c) 2024, Mapbox');
+});
+
+test("librosa's terms are there, in the version that the features are rewritten from", () => {
+  const [, version = ''] = /^librosa==([\d.]+)$/m.exec(read('constraints.txt')) ?? [];
+  expect(sectionOfCopy('librosa', version)).toContain('librosa development team');
+});
+
+test('the source code of what is under MPL and LGPL can be found', () => {
+  for (const name of ['mediabunny', '@mediabunny/aac-encoder']) {
+    const { version } = JSON.parse(read(`node_modules/${name}/package.json`)) as { version: string };
+    const file = `${name}/-/${path.posix.basename(name)}-${version}.tgz`;
+    expect(section(name)).toContain(`Source code of this version: https://registry.npmjs.org/${file}\n`);
+    expect(readdirSync(path.join(project, 'node_modules', name))).toContain('src');
+  }
+  const encoder = read('node_modules/@mediabunny/aac-encoder/dist/bundles/mediabunny-aac-encoder.mjs');
+  const [state = 'none'] = /Lavc[\d.]+/.exec(encoder) ?? [];
+  expect(section('@mediabunny/aac-encoder')).toContain(`calls itself ${state}:`);
+  const files = readdirSync(path.join(project, 'dist/assets'));
+  const withFfmpeg = files.filter(
+    (file) => /\.js$/.test(file) && read(`dist/assets/${file}`).includes(state),
+  );
+  expect(withFfmpeg).toEqual([expect.stringMatching(/^mediabunny-aac-encoder-[\w-]+\.js$/)]);
+});
+
+test('what mediabunny says to be based on the work of others is named', () => {
+  const folder = 'node_modules/mediabunny/dist/modules/src';
+  const sources = readdirSync(path.join(project, folder)).filter((file) => file.endsWith('.js'));
+  const based = sources.flatMap((file) => read(`${folder}/${file}`).match(/Based on \w+\.c from \w+/g) ?? []);
+  expect(based).toEqual(['Based on vorbis_parser.c from FFmpeg']);
+  expect(section('mediabunny')).toContain('vorbis_parser.c of FFmpeg');
+});
+
 test('the page has the licence of the networks that find a dancer in a video', () => {
   const [, pose = ''] = written.split('\n@mediapipe/pose 0.5.1675469404\n');
   const [own = ''] = pose.split(`\n${'='.repeat(80)}\n`);
@@ -59,6 +104,16 @@ test('all that meyda has bundled is named', () => {
   expect([...inside].sort()).toEqual(['dct', 'fftjs', 'tslib']);
   for (const name of ['dct', 'fftjs']) expect(section(name)).toContain('Permission is hereby granted');
   expect(section('meyda')).toContain('tslib, which is under the licence 0BSD');
+});
+
+test('THIRD_PARTY.md names every work of licences.txt', () => {
+  const table = read('THIRD_PARTY.md')
+    .split('\n')
+    .filter((row) => row.startsWith('| '));
+  const names = [...written.matchAll(/^={80}\n(\S+) \d\S*$/gm)].flatMap(([, name]) => name ?? []);
+  expect(names).toEqual(expect.arrayContaining(['three', 'earcut', 'librosa', '@mediapipe/pose']));
+  const unnamed = names.filter((name) => !table.some((row) => row.split(/[\s,|]+/).includes(name)));
+  expect(unnamed).toEqual([]);
 });
 
 test('THIRD_PARTY.md names every package of the page with its version', () => {

@@ -16,10 +16,10 @@ const BUNDLED = new Map([
 ]);
 
 /**
- * Files of the page that were made from a package which is not installed: its facts, as a package.json has them.
- * `licence-texts/NAME/*.txt` are its terms.
+ * Works of others in the page that are no installed packages: their facts, as a package.json has them, and how they
+ * came here. `licence-texts/NAME/*.txt` are their terms.
  */
-const CONVERTED = [
+const NOT_INSTALLED = [
   {
     name: '@mediapipe/pose',
     version: '0.5.1675469404',
@@ -27,7 +27,23 @@ const CONVERTED = [
     author: 'Google LLC',
     repository: 'google/mediapipe',
     changed:
-      'The weights of its networks, pose_detection and pose_landmark_full, were converted to ONNX: models/pose/detector.onnx and models/pose/landmarks.onnx.',
+      "The weights of its networks, pose_detection and pose_landmark_full, were converted to ONNX: models/pose/detector.onnx and models/pose/landmarks.onnx. What surrounds the networks (anchors, boxes, regions) was written in TypeScript after MediaPipe's calculators.",
+  },
+  {
+    name: 'earcut',
+    version: '3.0.2',
+    license: 'ISC',
+    author: 'Mapbox',
+    repository: 'mapbox/earcut',
+    changed: 'Copied into three by its authors.',
+  },
+  {
+    name: 'librosa',
+    version: '0.11.0',
+    license: 'ISC',
+    author: 'librosa development team',
+    repository: 'librosa/librosa',
+    changed: 'Its functions that the features of a song need were rewritten in TypeScript.',
   },
 ];
 
@@ -49,7 +65,8 @@ const PACKAGE = /^.*\/node_modules\/((?:@[^/]+\/)?[^/]+)(?=\/)/;
 /**
  * Two plugins that together write licences.txt into a built page: our own licence, then name, version, licence, author,
  * source and full licence texts of every package that has code, WebAssembly, styles, fonts or weights in the page or its
- * workers. The build fails when one of them has no text or is under a licence that is not allowed.
+ * workers, of what was copied or rewritten from others, and where the source code of what is under the MPL is to be
+ * had. The build fails when one of them has no text or is under a licence that is not allowed.
  *
  * @returns {{ page: import('vite').Plugin, worker: () => import('vite').Plugin }} `worker` goes to Vite's
  *   `worker.plugins`: workers are bundles of their own, built before the page's is written
@@ -117,7 +134,7 @@ async function licenceTexts(folders) {
   });
   const sections = await Promise.all([
     ...[...new Set([...folders, ...inner])].map(packageSection),
-    ...CONVERTED.map((facts) => section(facts, [])),
+    ...NOT_INSTALLED.map((facts) => section(facts, [])),
   ]);
   const project = await readFile(new URL('../../LICENSE', import.meta.url), 'utf8');
   const line = '='.repeat(80);
@@ -165,9 +182,20 @@ async function section({ name, version, license, author, repository, changed }, 
     `Licence: ${license}`,
     ...(by === undefined ? [] : [`By: ${by}`]),
     ...(source === undefined ? [] : [`Source: ${source}`]),
+    ...(license === 'MPL-2.0' ? [`Source code of this version: ${archive(name, version)}`] : []),
     ...(changed === undefined ? [] : [`Changed: ${changed}`]),
   ];
   return [facts.join('\n'), ...texts].join('\n\n');
+}
+
+/**
+ * Where npm's registry keeps a package, with its source code if that is part of it. The MPL wants recipients to be told.
+ *
+ * @param {string} name
+ * @param {string} version
+ */
+function archive(name, version) {
+  return `https://registry.npmjs.org/${name}/-/${path.posix.basename(name)}-${version}.tgz`;
 }
 
 /**
@@ -190,5 +218,5 @@ async function textsIn(folder, wanted) {
   const entries = await readdir(folder, { withFileTypes: true }).catch(() => []);
   const files = entries.filter((entry) => entry.isFile() && wanted.test(entry.name)).map(({ name }) => name);
   const texts = await Promise.all(files.sort().map((file) => readFile(path.join(folder, file), 'utf8')));
-  return texts.map((text) => (text.split(VITE_PROGRAM)[0] ?? '').trim());
+  return texts.map((text) => (text.split(VITE_PROGRAM)[0] ?? '').trim()).filter((text) => text !== '');
 }

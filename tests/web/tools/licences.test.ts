@@ -73,8 +73,32 @@ it('names the packages of the page, of its workers and of its fonts, with their 
   expect(text).toContain('The ReactDance contributors');
 });
 
-it('fails for a package without a licence text', async () => {
-  rmSync(path.join(folder, 'node_modules/@scope/in-worker/LICENSE'));
+it('says where the source code of a version is that is under the MPL', async () => {
+  const address = 'https://registry.npmjs.org/@scope/in-worker/-/in-worker-1.2.3.tgz';
+  addPackage('@scope/in-worker', { license: 'MPL-2.0' }, 'two');
+  const text = await licencesOfPage();
+  expect(text).toContain(
+    `@scope/in-worker 1.2.3\nLicence: MPL-2.0\nSource code of this version: ${address}\n`,
+  );
+  expect(text.match(/Source code of this version/g)).toHaveLength(1);
+});
+
+it('names what was copied or rewritten, with its terms', async () => {
+  const text = await licencesOfPage();
+  for (const [work, holder] of [
+    ['@mediapipe/pose', 'Apache License'],
+    ['earcut', 'Copyright (c) 2024, Mapbox'],
+    ['librosa', 'librosa development team.\n'],
+  ] as const) {
+    const [, own = ''] = text.split(`\n${'='.repeat(80)}\n${work} `);
+    expect(own.split(`\n${'='.repeat(80)}\n`)[0], work).toContain(holder);
+  }
+});
+
+it.each(['none', 'an empty one'])('fails for a package without a licence text: %s', async (text) => {
+  const file = path.join(folder, 'node_modules/@scope/in-worker/LICENSE');
+  rmSync(file);
+  if (text !== 'none') writeFileSync(file, '\n');
   await expect(licencesOfPage()).rejects.toThrow('@scope/in-worker is in the page, but has no licence text');
 });
 
