@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 import subprocess
 from collections import Counter
 from pathlib import Path
@@ -40,6 +41,33 @@ def test_no_file_is_a_copy_of_data_that_is_not_ours(tracked: list[Path]) -> None
     suspects = {digest(path): path for path in tracked if path.stat().st_size in sizes}
     copies = [str(suspects[hash_]) for path in foreign if (hash_ := digest(path)) in suspects]
     assert copies == []
+
+
+@pytest.mark.parametrize(
+    ("document", "folders"),
+    [
+        ("THIRD_PARTY.md", ("web/public", "docs", "training/checkpoints")),
+        ("tests/fixtures/README.md", ("tests/fixtures",)),
+    ],
+)
+def test_origin_of_every_file_that_is_no_text_is_stated(
+    tracked: list[Path], document: str, folders: tuple[str, ...]
+) -> None:
+    """A document names the file or a folder that it lies in, in backticks, from the root or from its own folder."""
+    named = {
+        base / name
+        for name in re.findall(r"`([^`\s]+)`", (ROOT / document).read_text())
+        for base in (ROOT, (ROOT / document).parent)
+    }
+    # A folder says nothing of all that could come to lie in it.
+    named -= {ROOT / folder for folder in ("web/public", "docs", "training", "tests/fixtures")}
+    files = [
+        path
+        for path in tracked
+        if path.suffix != ".md" and any(path.is_relative_to(ROOT / folder) for folder in folders)
+    ]
+    assert len(files) > 10
+    assert [str(path.relative_to(ROOT)) for path in files if named.isdisjoint((path, *path.parents))] == []
 
 
 def test_lock_files_hold_no_download_addresses() -> None:

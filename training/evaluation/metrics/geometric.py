@@ -1,8 +1,8 @@
 """Geometric features of one dancer (FID_g): in what share of frames each of 32 poses or gestures is seen.
 
 After Müller et al. 2005 (Efficient content-based retrieval of motion capture data) as used by the AIST++, Duolando
-and ReactDance evaluations. Thresholds are multiples of a humerus, a shoulder width and a hip width of one fixed body,
-so dancers should be compared at the same scale.
+and ReactDance evaluations; rewritten from fairmotion (THIRD_PARTY.md has its licence). Thresholds are multiples of a
+humerus, a shoulder width and a hip width of one fixed body, so dancers should be compared at the same scale.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 acceleration.
 
 After Onuma et al. 2008 (FMDistance: a fast and effective distance function for motion capture data) as used by the
-AIST++, Duolando and ReactDance evaluations.
+AIST++, Duolando and ReactDance evaluations; rewritten from fairmotion (THIRD_PARTY.md has its licence).
 """
 
 from __future__ import annotations
