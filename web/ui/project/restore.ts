@@ -189,12 +189,12 @@ export class Restorer {
     const isComing = song === undefined && stored.song !== this.stored.page.song;
     const made = this.motions.get(stored.motion);
     if (!leader || isComing || !made || this.isOfOtherLength(stored)) return null;
-    const { id, number, name, starred, createdAt, label, seconds, model } = stored;
+    const { id, number, name, starred, createdAt, label, seconds, model, unfamiliarity } = stored;
     const { inputs, changed } = restoredInputs(stored.inputs, state, leader, song ?? null);
     if (changed) this.changed.add(id);
     const { motion } = made;
     const latents = readableLatents(made, state);
-    const reaction: Reaction = { motion, latents, model, inputs, label, seconds };
+    const reaction: Reaction = { motion, latents, model, inputs, unfamiliarity, label, seconds };
     return { id, number, name, starred, createdAt, reaction };
   }
 

@@ -134,6 +134,7 @@ export const take = v.object({
   label,
   seconds: v.nullable(amount),
   model: v.fallback(v.optional(model), undefined),
+  unfamiliarity: v.fallback(v.optional(amount), undefined),
   motion: id,
   leader: id,
   song: v.nullable(id),

@@ -64,6 +64,7 @@ export interface StoredTake {
   readonly label: string | null;
   readonly seconds: number | null;
   readonly model?: ModelIdentity | undefined;
+  readonly unfamiliarity?: number | undefined;
   /** Ids of the parts. */
   readonly motion: string;
   readonly leader: string;
@@ -166,14 +167,14 @@ export function storedProject(state: AppState, framing: Framing | null = null): 
   };
 
   const takes = state.takes.map(({ id, number, name, starred, createdAt, reaction }): StoredTake => {
-    const { label, seconds, model, inputs } = reaction;
+    const { label, seconds, model, unfamiliarity, inputs } = reaction;
     const parts = {
       motion: motion(reaction),
       leader: leader(inputs.leader),
       song: song(inputs.song),
       inputs: storedInputs(inputs),
     };
-    return { id, number, name, starred, createdAt, label, seconds, model, ...parts };
+    return { id, number, name, starred, createdAt, label, seconds, model, unfamiliarity, ...parts };
   });
   const inputs = currentInputs(state);
   const { other, letter, compare, takesMade, footLock, countings, playback } = state;

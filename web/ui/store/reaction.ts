@@ -95,8 +95,8 @@ export interface Reaction {
   readonly model?: ModelIdentity | undefined;
   /** What it was generated from. */
   readonly inputs: Inputs;
-  /** How far the leader is from those that the model was trained on; not known of a reaction that is not new. */
-  readonly unfamiliarity?: number;
+  /** How far the leader is from those that the model was trained on; not known of one that came ready-made. */
+  readonly unfamiliarity?: number | undefined;
   /** Set when it was not computed on this page: "demo reaction". */
   readonly label: string | null;
   /** Seconds that generating it took, or null when it came ready-made. */
