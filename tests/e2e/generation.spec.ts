@@ -125,11 +125,21 @@ test('a leader unlike the dancers of training is named beside their partner', as
   await app.openWithoutPicture(SHIPPED);
   await app.settled();
   const transport = page.getByRole('group', { name: 'Transport' });
-  const sentence = 'This leader moves unlike the dancers that the model learned from.';
+  const sentence =
+    'This leader moves unlike the dancers that the model learned from: the partner may look odd.';
   await expect(transport).not.toContainText(sentence);
   await app.chooseLeader(bvh({ frames: 120, name: 'made.bvh' }));
   await app.reaction('made.bvh');
   await expect(transport).toContainText(sentence);
+  // All of it can be read on a laptop.
+  await page.setViewportSize({ width: 1280, height: 720 });
+  const note = transport.getByText(sentence);
+  expect(
+    await note.evaluate(({ scrollHeight, clientHeight, scrollWidth, clientWidth }) => [
+      scrollHeight - clientHeight,
+      scrollWidth - clientWidth,
+    ]),
+  ).toEqual([0, 0]);
 });
 
 test('playing never stops while a new reaction is made', async ({ page }) => {

@@ -151,9 +151,9 @@ export interface Note {
   readonly isWarning: boolean;
 }
 
+/** Short enough for the two lines of the transport. */
 const UNFAMILIAR =
-  'This leader moves unlike the dancers that the model learned from. The partner answers in the style it knows and ' +
-  'may look odd.';
+  'This leader moves unlike the dancers that the model learned from: the partner may look odd.';
 
 /** Whether the reaction on the stage is to a leader unlike those that the model was trained on. */
 function isUnfamiliar({ reaction, manifest }: AppState): boolean {
