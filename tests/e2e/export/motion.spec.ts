@@ -68,6 +68,13 @@ test('leader, reactor or both are saved in four formats with their metadata', as
     expect(names).toEqual(['leader.npy', 'reactor.npy', 'fps.npy', 'joints.npy', 'metadata.npy']);
   });
 
+  await test.step('a BVH says in which unit it is, since the file cannot', async () => {
+    await expect(menu.getByRole('button', { name: /^BVH/ })).toContainText('centimetres');
+    await menu.getByRole('radio', { name: 'Reactor' }).click();
+    await expect(menu.getByRole('button', { name: /^BVH/ })).toContainText('centimetres');
+    await menu.getByRole('radio', { name: 'Both' }).click();
+  });
+
   await test.step('with another frame rate, which the name says', async () => {
     await menu.getByRole('radio', { name: '24', exact: true }).click();
     const download = await save('JSON');

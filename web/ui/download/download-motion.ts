@@ -10,9 +10,9 @@ import type { Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
 
-const TWO_FILES = 'Two skeletons with rest pose in a zip, for Blender, Maya, MotionBuilder';
+const TWO_FILES = 'Zip of two skeletons in centimetres, for Blender (scale 0.01), Maya, MotionBuilder';
 const FORMATS: readonly (readonly [MotionFormat, string, string])[] = [
-  ['bvh', 'BVH', 'Skeleton with rest pose, for Blender, Maya, MotionBuilder'],
+  ['bvh', 'BVH', 'Skeleton in centimetres, for Blender (scale 0.01), Maya, MotionBuilder'],
   ['glb', 'GLB', 'Skinned mannequin with the animation, for 3D tools and web pages'],
   ['npz', 'NPZ', '22 joints in metres, for Python'],
   ['json', 'JSON', 'Joints and all settings, as text'],
