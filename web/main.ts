@@ -21,7 +21,7 @@ import { mountDropTarget } from './ui/files/drop-target';
 import { openDropped } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
 import { FileLoader } from './ui/files/file-loader';
-import { isProject } from './ui/files/file-type';
+import { isProject, isVideoName } from './ui/files/file-type';
 import { mountGivenDialog } from './ui/files/given-dialog';
 import { openGiven } from './ui/files/given-files';
 import { mountImportPanel } from './ui/files/joints/import-panel';
@@ -190,7 +190,10 @@ const services: Services = {
     },
     stageSize: () => stage?.pictureSize() ?? null,
   }),
-  hasLeaderVideo: () => videoTrack.video !== null,
+  leaderVideo: () => {
+    if (videoTrack.video) return 'open';
+    return isVideoName(store.getState().leader?.name ?? '') ? 'gone' : 'none';
+  },
   saveProject: () => void saveProject(),
   storeHere: project.takeOver,
   clearProject: () => {

@@ -123,6 +123,14 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   expect(await app.read(({ leader }) => leader?.name)).toBe('dance.webm');
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
   await expect(lane).toBeVisible();
+
+  // Only its motion is stored, and who comes back is told so where the video could be chosen.
+  await page.reload();
+  await app.until(({ leader, restoring }) => leader?.name === 'dance.webm' && !restoring);
+  await expect(panel).toBeHidden();
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+  await expect(page.getByText('The leader’s video was not kept.')).toBeVisible();
+  await expect(page.getByRole('checkbox', { name: 'Show the leader’s video beside it' })).toBeHidden();
 });
 
 test('a video outlasts the demo that comes while it is read, and gives way to undo and to a newer file', async ({

@@ -41,7 +41,7 @@ export function createDownloadVideo(
     { class: 'video', attributes: { 'aria-label': 'Video and picture' } },
     head.root,
     sizeRow,
-    beside.root,
+    ...beside.rows,
     ...captions,
     progress.root,
     picture.root,
@@ -75,6 +75,7 @@ export function createDownloadVideo(
         store,
         (state) => [
           state.videoProgress,
+          state.leader,
           state.reaction,
           state.takes,
           state.footLock,
@@ -93,11 +94,14 @@ export function createDownloadVideo(
   };
 }
 
-/** Whether the leader's video is shown beside the dance. */
+/**
+ * Whether the leader's video is shown beside the dance. Only its motion is stored: who comes back to a leader from a
+ * video is told why the choice is not there.
+ */
 function createBeside(
   store: Store,
   services: Services,
-): { readonly root: HTMLElement; readonly show: (state: AppState) => void } {
+): { readonly rows: readonly HTMLElement[]; readonly show: (state: AppState) => void } {
   const box = el('input', {
     attributes: { type: 'checkbox', id: 'beside-video' },
     on: {
@@ -106,16 +110,22 @@ function createBeside(
       },
     },
   });
-  const root = el(
+  const choice = el(
     'label',
     { class: 'row soft', attributes: { for: box.id } },
     'Show the leader’s video beside it',
     box,
   );
+  const missing = el('p', {
+    class: 'row soft',
+    text: 'The leader’s video was not kept. To show it beside the dance, open it again.',
+  });
   return {
-    root,
+    rows: [choice, missing],
     show: ({ videoProgress, download }) => {
-      root.hidden = videoProgress !== null || !services.hasLeaderVideo();
+      const video = videoProgress ? 'none' : services.leaderVideo();
+      choice.hidden = video !== 'open';
+      missing.hidden = video !== 'gone';
       box.checked = download.beside;
     },
   };

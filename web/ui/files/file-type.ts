@@ -11,6 +11,11 @@ const VIDEO_NAME = /\.(mp4|m4v|mov|webm|mkv)$/i;
 const ONLY_VIDEO_NAME = /\.(m4v|mov|mkv|avi|wmv|mpg|mpeg|flv|3gp|mts|m2ts)$/i;
 const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
 
+/** Whether a file is a video, from its name alone: a leader that was read from one keeps its name. */
+export function isVideoName(name: string): boolean {
+  return VIDEO_NAME.test(name) || ONLY_VIDEO_NAME.test(name);
+}
+
 /** Whether a file is a project, from its name alone: other files are zip archives too. */
 export function isProject(name: string): boolean {
   return PROJECT_NAME.test(name);

@@ -96,7 +96,7 @@ function build(services: Services, toggle: () => void): Elements {
   const save = entry(
     'save',
     'Save project',
-    'Song, leader, takes and settings in one file',
+    'Song, the leader’s motion, takes and settings in one file',
     services.saveProject,
   );
   const open = entry('folder', 'Open a project', 'Replaces what is here; undo brings it back', () => {

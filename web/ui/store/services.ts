@@ -122,8 +122,8 @@ export interface Services {
   readonly saveVideo: () => void;
   /** Draws the moment that the stage shows as a PNG of the chosen size and hands it to the browser's downloads. */
   readonly savePicture: () => void;
-  /** Whether the leader is from a video that can be shown beside the dance. */
-  readonly hasLeaderVideo: () => boolean;
+  /** The video that the leader is from: open, so that it can be shown beside the dance, or gone since only motion is stored. */
+  readonly leaderVideo: () => 'open' | 'gone' | 'none';
   readonly cancelVideo: () => void;
   /** Shares the file that was written last with another app, by the system's own dialog. */
   readonly shareSaved: () => void;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { fileKind } from '../../../../web/ui/files/file-type';
+import { fileKind, isVideoName } from '../../../../web/ui/files/file-type';
 
 const bytes = (text: string, ...more: number[]): Uint8Array =>
   Uint8Array.from([...[...text].map((letter) => letter.charCodeAt(0)), ...more]);
@@ -33,6 +33,13 @@ describe('the type of a file', () => {
     ['WebM', Uint8Array.of(0x1a, 0x45, 0xdf, 0xa3), 'camera', 'video/webm'],
   ])('sees %s of the name or type of a video as one', (_, head, name, type) => {
     expect(fileKind(head, name, type)).toBe('video');
+  });
+
+  it('is told of a leader from a video by its name, also of one from the camera', () => {
+    for (const name of ['IMG_1.MOV', 'dance.mp4', 'camera.webm', 'dance.3gp'])
+      expect(isVideoName(name), name).toBe(true);
+    for (const name of ['dance.bvh', 'Demo leader', 'mp4.npz', ''])
+      expect(isVideoName(name), name).toBe(false);
   });
 
   it('is that of the name where the bytes do not tell', () => {
