@@ -11,7 +11,7 @@ import { watchAll, type Store } from '../store/store';
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
 /** Which files can be chosen. */
-const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a motion file' } as const;
+const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a video or a motion file' } as const;
 
 /** The song's or the leader's chip in the bar: its name, below it what it is, and a click chooses another one. */
 export function mountFileChip(
@@ -50,7 +50,7 @@ export function mountFileChip(
     setText(details, content.details);
     progress.hidden = content.fraction === null;
     setVariable(progress, '--part', content.fraction ?? 0);
-    chip.title = content.name ? `${content.name}, ${content.details}` : '';
+    chip.title = content.name ? `${content.name}, ${content.details}. Click to choose another` : '';
     const role = loadedRole(state);
     sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);

@@ -119,7 +119,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
       );
       button.title = making
         ? 'Stop here'
-        : 'Makes three reactions that differ as much as possible, for you to pick from';
+        : 'Makes three reactions that differ as much as possible, with more variety, for you to pick from';
     },
   };
 }
