@@ -108,6 +108,8 @@ test('of several people the largest is followed, and another one who is clicked'
   await app.drop({ name: 'two.webm', mimeType: 'video/webm', buffer });
   const panel = page.getByRole('region', { name: 'Video of the leader' });
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
+  // Nobody was picked, and what became of the video can be read again.
+  await expect(panel.getByRole('button', { name: 'Close' })).toBeInViewport({ ratio: 0.95 });
   await expect.poll(() => skeletonAt(panel)).toBeLessThan(0.5);
   // The dancers stand beside the video.
   const right = await panel.evaluate(({ offsetLeft, offsetWidth }: HTMLElement) => offsetLeft + offsetWidth);

@@ -161,7 +161,10 @@ export class VideoPanel {
   showMotion(observations: Observations, motion: VideoMotion): void {
     this.#root.hidden = false;
     this.#reading(false);
+    const asked = this.#picture.choosing;
     this.#picture.showObservations(observations);
+    // The question had scrolled to its picture, away from what is said now.
+    if (asked && !this.#picture.choosing) this.#root.scrollTop = 0;
     this.#controls.setUsed(motion.used);
     this.#controls.setCamera(motion.camera);
     const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= UNSURE), 0);
