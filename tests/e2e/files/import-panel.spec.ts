@@ -106,6 +106,30 @@ test('joints of a refused file are chosen, exchanged, remembered and forgotten',
   expect(await app.read(({ refusedLeader }) => refusedLeader)).toBeNull();
 });
 
+test('a number that cannot be used is not taken for none', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'dance.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
+  await app.reaction('dance.bvh');
+  await page.getByRole('button', { name: 'Joints and units' }).first().click();
+  const panel = page.getByRole('dialog', { name: 'Joints and units' });
+  const rate = panel.getByRole('spinbutton', { name: 'Frames per second' });
+  const again = panel.getByRole('button', { name: 'Read again' });
+  for (const unusable of ['2e', '5000']) {
+    await rate.fill('');
+    await rate.pressSequentially(unusable);
+    await again.click();
+    await expect(rate).toBeFocused();
+    await expect(panel).toBeVisible();
+  }
+  // Of films, with more decimals than two.
+  await rate.fill('23.976');
+  await again.click();
+  await app.until(({ leader }) => leader?.options.fps === 23.976);
+  await expect(panel).toBeHidden();
+});
+
 test('a leader of the page needs no file, on the first visit and later', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();

@@ -19,7 +19,7 @@ function select(choices: readonly Choice[], value: string): HTMLSelectElement {
 
 function number(
   value: number | undefined,
-  limits: { min: number; max: number; step: number },
+  limits: { min: number; max: number; step: number | 'any' },
 ): HTMLInputElement {
   const element = el('input', { attributes: { type: 'number', placeholder: 'as found', ...limits } });
   element.value = value === undefined ? '' : String(value);
@@ -33,7 +33,15 @@ const numberOf = ({ value }: HTMLInputElement): number | undefined =>
 export function importControls(
   options: ImportOptions,
   inspection: Inspection | null,
-): { readonly element: HTMLElement; readonly options: () => ImportOptions } {
+): {
+  readonly element: HTMLElement;
+  /**
+   * False where a number can't be used, such as one with a comma in a browser that takes points; the browser then says so
+   * beside it.
+   */
+  readonly reportValidity: () => boolean;
+  readonly options: () => ImportOptions;
+} {
   const parts = inspection?.parts ?? [];
   const part = select(
     parts.map((name, index) => [String(index), name]),
@@ -48,8 +56,8 @@ export function importControls(
     ]),
     String(options.turn ?? 0),
   );
-  const floor = number(options.floor, { min: -10, max: 10, step: 0.01 });
-  const fps = number(options.fps, { min: 5, max: 1000, step: 0.01 });
+  const floor = number(options.floor, { min: -10, max: 10, step: 0.001 });
+  const fps = number(options.fps, { min: 5, max: 1000, step: 'any' });
   const row = (text: string, control: HTMLElement): HTMLElement =>
     el('label', {}, el('span', { text }), control);
   return {
@@ -63,6 +71,7 @@ export function importControls(
       row('Floor at, metres', floor),
       row('Frames per second', fps),
     ),
+    reportValidity: () => [floor, fps].every((input) => input.reportValidity()),
     options: () => ({
       part: parts.length > 1 ? Number(part.value) : options.part,
       unit: unit.value === '' ? undefined : (unit.value as UnitName),

@@ -98,6 +98,7 @@ function panelContent(
   const button = (text: string, kind: string, run: () => void): HTMLElement =>
     textButton(`btn ${kind}`, text, run);
   const readAgain = (): void => {
+    if (!controls.reportValidity()) return;
     const joints = selects?.changed() ?? options.joints;
     if (inspection && joints) remembered.remember(inspection.skeleton, joints);
     reread({ ...controls.options(), joints });
