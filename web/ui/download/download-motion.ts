@@ -1,6 +1,6 @@
 import { estimateBytes, FRAME_RATES, type FrameRate, type MotionFormat } from '../../export/client';
 import { chosenDance, chosenRole, fileNameParts, selectionOf } from './dance';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText, combineDisposers, UNTRANSLATED } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { motionFileName } from './file-name';
 import { byteSize } from '../store/format';
@@ -142,7 +142,7 @@ function createFormatRow(
         blur: previewIs(false),
       },
     },
-    el('b', { text: name }),
+    el('b', { text: name, attributes: UNTRANSLATED }),
     purposeText,
     size,
   );
@@ -169,7 +169,7 @@ function createFileNameLine(): {
   readonly show: (state: AppState, previewed: MotionFormat | null) => void;
 } {
   const status = el('span');
-  const nameText = el('b');
+  const nameText = el('b', { attributes: UNTRANSLATED });
   const root = el('div', { class: 'file' }, icon('check'), status, nameText);
   return {
     root,

@@ -47,6 +47,7 @@ export function mountFileChip(
     chip.classList.toggle('refused', content.refused);
     chip.classList.toggle('empty', content.name === null);
     setText(name, content.name ?? ASK[side]);
+    name.translate = content.name === null;
     setText(details, content.details);
     progress.hidden = content.fraction === null;
     setVariable(progress, '--part', content.fraction ?? 0);

@@ -1,5 +1,5 @@
 import { generatedRole, roleName } from '../store/roles';
-import { el, rememberFocus, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, rememberFocus, setText, setVariable, combineDisposers, UNTRANSLATED } from '../widgets/dom';
 import { jobText } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
@@ -96,6 +96,6 @@ function createCancel(services: Services): HTMLElement {
       },
     },
     'Cancel ',
-    el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
+    el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true', ...UNTRANSLATED } }),
   );
 }

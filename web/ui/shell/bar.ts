@@ -1,7 +1,7 @@
 import { iconButton } from '../widgets/button';
 import { mountBackendBadge } from './backend-badge';
 import { mountFileChip } from '../files/file-chip';
-import { el, setAttribute, combineDisposers } from '../widgets/dom';
+import { el, setAttribute, combineDisposers, UNTRANSLATED } from '../widgets/dom';
 import { mountDownloadMenu } from '../download/download-menu';
 import { brandMark, icon } from '../widgets/icons';
 import { mountProjectMenu } from '../project/project-menu';
@@ -39,8 +39,12 @@ export const mountBar: Mount = (root, store, services) => {
       { class: 'brand' },
       brandMark(),
       // Small windows leave the name out, screen readers have it all the same.
-      el('h1', { class: 'visually-hidden', text: 'ReactDance' }),
-      el('span', { class: 'name', text: 'ReactDance', attributes: { 'aria-hidden': 'true' } }),
+      el('h1', { class: 'visually-hidden', text: 'ReactDance', attributes: UNTRANSLATED }),
+      el('span', {
+        class: 'name',
+        text: 'ReactDance',
+        attributes: { 'aria-hidden': 'true', ...UNTRANSLATED },
+      }),
     ),
   );
   const song = mountFileChip(root, store, services, 'song');

@@ -1,4 +1,5 @@
 import { listen, combineDisposers } from '../widgets/dom';
+import { type Control, faderId } from '../widgets/fader';
 import { barBeside, countedBeats, snapped } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
@@ -124,10 +125,10 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
   i: ({ store, state, time }) => apply(store, regionEndSet('from', snapped(countedBeats(state), time))),
   o: ({ store, state, time }) => apply(store, regionEndSet('to', snapped(countedBeats(state), time))),
-  c: () => focusFader('Coarse guidance'),
-  v: () => focusFader('Fine guidance'),
-  m: () => focusFader('Music guidance'),
-  y: () => focusFader('Variety'),
+  c: () => focusFader('coarse'),
+  v: () => focusFader('fine'),
+  m: () => focusFader('music'),
+  y: () => focusFader('variety'),
   r: ({ store }) => apply(store, guidanceReset()),
   d: ({ store }) => apply(store, seedRandomized(randomSeed())),
   f: ({ store }) => toggleCamera(store, 'follow'),
@@ -184,8 +185,8 @@ function nextSpeed(speed: number, by: 1 | -1): number {
   return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + by))] ?? 1;
 }
 
-function focusFader(label: string): void {
-  document.querySelector<HTMLInputElement>(`input[aria-label="${label}"]`)?.focus();
+function focusFader(control: Control): void {
+  document.getElementById(faderId(control))?.focus();
 }
 
 function toggleCamera(store: Store, camera: View): void {

@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/button';
-import { el, combineDisposers, rememberFocus } from '../widgets/dom';
+import { el, combineDisposers, rememberFocus, UNTRANSLATED } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from './overlay-menu';
 import { apply, type Store, watch } from '../store/store';
@@ -42,7 +42,7 @@ export const mountKeysDialog: Mount = (root, store) => {
   });
   const letterKeys = createLetterSwitch(store);
   const rows = KEYS.flatMap(([keys, what]) => [
-    el('dt', {}, ...keys.map((key) => el('kbd', { text: key }))),
+    el('dt', {}, ...keys.map((key) => el('kbd', { text: key, attributes: UNTRANSLATED }))),
     el('dd', { text: what }),
   ]);
   const dialog = el(

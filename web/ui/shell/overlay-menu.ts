@@ -1,6 +1,6 @@
 import { textButton } from '../widgets/button';
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
-import { el, onPressOutside, setAttribute, setText, combineDisposers } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText, combineDisposers, UNTRANSLATED } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { VisibleOverlays } from '../../common/picture';
 import type { Reaction } from '../store/reaction';
@@ -134,7 +134,7 @@ function overlayToggle(
     },
     el('span', { class: 'indicator', attributes: { 'aria-hidden': true } }),
     el('span', { class: 'name', text: label }),
-    el('kbd', { class: 'desk', text: key, attributes: { 'aria-hidden': true } }),
+    el('kbd', { class: 'desk', text: key, attributes: { 'aria-hidden': true, ...UNTRANSLATED } }),
   );
 }
 

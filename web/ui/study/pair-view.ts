@@ -1,4 +1,4 @@
-import { el, setText } from '../widgets/dom';
+import { el, setText, UNTRANSLATED } from '../widgets/dom';
 import { textButton } from '../widgets/button';
 import type { CRITERIA } from './answers';
 import { CHOICES, type Criterion } from './answers';
@@ -172,7 +172,7 @@ export class PairView {
               },
             }),
             el('span', { text }),
-            el('kbd', { text: String(i + 1), attributes: { 'aria-hidden': 'true' } }),
+            el('kbd', { text: String(i + 1), attributes: { 'aria-hidden': 'true', ...UNTRANSLATED } }),
           ),
         ),
       ),

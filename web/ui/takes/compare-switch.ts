@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, listen, setAttribute, combineDisposers } from '../widgets/dom';
+import { el, listen, setAttribute, combineDisposers, UNTRANSLATED } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState, Compare, Letter } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
@@ -56,7 +56,7 @@ function createLetters(store: Store): Group {
   const buttons = LETTERS.map((letter) =>
     el('button', {
       text: letter,
-      attributes: { type: 'button', role: 'radio', title: 'Show the other take (B)' },
+      attributes: { type: 'button', role: 'radio', title: 'Show the other take (B)', ...UNTRANSLATED },
       on: {
         click: () => {
           if (store.getState().letter !== letter) apply(store, takesSwapped());

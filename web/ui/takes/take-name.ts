@@ -1,4 +1,4 @@
-import { el, setText } from '../widgets/dom';
+import { el, setText, UNTRANSLATED } from '../widgets/dom';
 import { MAX_TAKE_NAME_LENGTH } from '../store/actions/takes';
 
 /** The name of a take, as text or as a field while it is edited. */
@@ -13,7 +13,9 @@ interface TakeName {
  * @param onLeave is called when editing was ended by key, so that the focus can be moved on
  */
 export function createTakeName(onRename: (name: string) => void, onLeave: () => void): TakeName {
-  const text = el('b');
+  // Not read back from the page, where a translation may have replaced it.
+  let shown = '';
+  const text = el('b', { attributes: UNTRANSLATED });
   const field = el('input', {
     attributes: {
       type: 'text',
@@ -41,16 +43,17 @@ export function createTakeName(onRename: (name: string) => void, onLeave: () => 
     if (field.hidden) return;
     field.hidden = true;
     text.hidden = false;
-    if (keep && field.value !== text.textContent) onRename(field.value);
+    if (keep && field.value !== shown) onRename(field.value);
   };
   return {
     root: el('div', { class: 'name' }, text, field),
     show: (title) => {
+      shown = title;
       setText(text, title);
       text.title = title;
     },
     edit: () => {
-      field.value = text.textContent ?? '';
+      field.value = shown;
       field.hidden = false;
       text.hidden = true;
       field.focus();

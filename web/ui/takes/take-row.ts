@@ -1,5 +1,5 @@
 import { iconButton, textButton } from '../widgets/button';
-import { el, setAttribute, setText } from '../widgets/dom';
+import { el, setAttribute, setText, UNTRANSLATED } from '../widgets/dom';
 import type { Take } from '../store/reaction';
 import type { AppState, Letter } from '../store/state';
 import { apply, type Store } from '../store/store';
@@ -95,9 +95,14 @@ function cell(className: string, ...children: HTMLElement[]): HTMLElement {
 /** The buttons that make the take A or B of the comparison, in this order. */
 function createLetterButtons(store: Store, id: string): HTMLButtonElement[] {
   return LETTERS.map((letter) =>
-    textButton('', letter, () => {
-      apply(store, letterGiven(id, letter));
-    }),
+    textButton(
+      '',
+      letter,
+      () => {
+        apply(store, letterGiven(id, letter));
+      },
+      UNTRANSLATED,
+    ),
   );
 }
 

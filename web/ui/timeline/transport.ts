@@ -1,5 +1,5 @@
 import { iconButton, textButton } from '../widgets/button';
-import { el, setHidden, setText, combineDisposers } from '../widgets/dom';
+import { el, setHidden, setText, combineDisposers, UNTRANSLATED } from '../widgets/dom';
 import { clockTime, rate } from '../store/format';
 import { icon } from '../widgets/icons';
 import { isReading, danceDuration, firstNote } from '../store/selectors';
@@ -140,7 +140,7 @@ function createPlayButton(store: Store, { togglePlay }: Services): Control<HTMLB
 function createClock(store: Store): Control {
   const now = el('span', { class: 'now' });
   const of = el('span', { class: 'of' });
-  const element = el('div', { class: 'clock' }, now, ' ', of);
+  const element = el('div', { class: 'clock', attributes: UNTRANSLATED }, now, ' ', of);
   const dispose = watchAll(
     store,
     (state) => [state.playback.time, state.leader, state.song],

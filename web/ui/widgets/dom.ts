@@ -10,6 +10,9 @@ interface Properties {
   readonly on?: { readonly [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void };
 }
 
+/** Of what is no word of a language, such as names, keys and running numbers: browsers that translate pages leave it. */
+export const UNTRANSLATED = { translate: 'no' } as const;
+
 /** Makes an element. No markup strings anywhere, so nothing a file name contains can become markup. */
 export function el<K extends keyof HTMLElementTagNameMap>(
   tag: K,

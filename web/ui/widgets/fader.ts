@@ -18,6 +18,9 @@ export interface FaderTexts {
 /** What is said beside the value. */
 export type FaderNote = 'mixed' | 'no song' | null;
 
+/** Id of a fader's input. */
+export const faderId = (control: Control): string => `fader-${control}`;
+
 interface Fader {
   readonly root: HTMLElement;
   /** Sets range and value, the mean where the body parts are mixed; without a range it is disabled. */
@@ -71,6 +74,7 @@ export function createFader(control: Control, { name, label, hint }: FaderTexts,
   const input = el('input', {
     attributes: {
       type: 'range',
+      id: faderId(control),
       'aria-label': label,
       'aria-describedby': hintId,
       title: `${hint}. Double click for the default.`,

@@ -2,7 +2,7 @@ import { changedChoice, type ChosenJoints, sidesExchanged } from './joint-choice
 import type { Inspection } from '../../../motion/import/inspect';
 import type { JointChoice } from '../../../motion/retarget/options';
 import { type JointName, SMPL22 } from '../../../motion/skeleton/skeleton';
-import { el } from '../../widgets/dom';
+import { el, UNTRANSLATED } from '../../widgets/dom';
 
 interface JointSelects {
   readonly element: HTMLElement;
@@ -54,7 +54,9 @@ export function jointSelects(
         },
       },
       el('option', { text: 'estimated', attributes: { value: '' } }),
-      ...joints.map((joint, index) => el('option', { text: joint.name, attributes: { value: index } })),
+      ...joints.map((joint, index) =>
+        el('option', { text: joint.name, attributes: { value: index, ...UNTRANSLATED } }),
+      ),
     );
     select.value = String(found[name] ?? '');
     selects.set(name, select);
