@@ -131,6 +131,11 @@ describe('words in a video', () => {
     expect(fourth![0]).toBe('d');
   });
 
+  test('begin at the right where they are read from there', () => {
+    const { calls } = drawnBy({ title: '«سالسا» 2026!', credit: 'Clave' }, 0);
+    expect(calls.slice(1).map(([, x]) => x)).toEqual([1955, 45]);
+  });
+
   test('cost nothing where there are none', () => {
     const { picture, canvas, calls } = drawnBy({ title: ' ', credit: '' }, 0);
     expect(canvas).toBe(picture);
@@ -169,6 +174,25 @@ test('a long title takes more lines, and only what is beyond the last one is cut
   expect(wrapped('Descarga en la noche', 11, 3, widthOf)).toEqual(['Descarga en', 'la noche']);
   expect(wrapped('Descarga en la noche by a couple', 11, 2, widthOf)).toEqual(['Descarga en', 'la noche b…']);
   expect(wrapped('Donaudampfschifffahrt', 11, 3, widthOf)).toEqual(['Donaudampf…']);
+});
+
+test('a title of a script without spaces takes more lines too, and no sign begins one', () => {
+  const widthOf = (text: string): number => text.length;
+  const title = '東京の夜のサルサ、二人の踊り。';
+  const lines = wrapped(title, 6, 3, widthOf);
+  expect(lines.join('')).toBe(title);
+  expect(lines).toHaveLength(3);
+  for (const line of lines) {
+    expect(line.length).toBeLessThanOrEqual(6);
+    expect(line).not.toMatch(/^[、。]/);
+  }
+  expect(wrapped('Salsa 東京の夜 in Tokyo', 9, 3, widthOf)).toEqual(['Salsa 東京の', '夜 in', 'Tokyo']);
+});
+
+test('no emoji is cut in two', () => {
+  const widthOf = (text: string): number => text.length;
+  expect(fitted('Salsa 💃🏽💃🏽', 9, widthOf)).toBe('Salsa…');
+  expect(fitted('Salsa 💃🏽💃🏽', 11, widthOf)).toBe('Salsa 💃🏽…');
 });
 
 test('a browser that can neither encode nor record writes no video', async () => {

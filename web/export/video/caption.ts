@@ -23,10 +23,42 @@ export function titleOpacity(seconds: number): number {
 /** The longest beginning of a text that is not wider than `width`, with an ellipsis where it is cut. */
 export function fitted(text: string, width: number, widthOf: (text: string) => number): string {
   if (widthOf(text) <= width) return text;
-  let end = text.length - 1;
-  while (end > 0 && widthOf(`${text.slice(0, end).trimEnd()}…`) > width) end--;
-  return `${text.slice(0, end).trimEnd()}…`;
+  // Not by the units of the string, of which an emoji has several.
+  const letters = Array.from(new Intl.Segmenter().segment(text), ({ segment }) => segment);
+  const beginning = (end: number): string => `${letters.slice(0, end).join('').trimEnd()}…`;
+  let end = letters.length - 1;
+  while (end > 0 && widthOf(beginning(end)) > width) end--;
+  return beginning(end);
 }
+
+/** Of scripts that have no spaces between words. */
+const UNSPACED =
+  /[\p{Script=Han}\p{Script=Hiragana}\p{Script=Katakana}\p{Script=Thai}\p{Script=Lao}\p{Script=Khmer}\p{Script=Myanmar}]/u;
+
+/** The parts of a text after which a line may end; a space is at the beginning of the part behind it. */
+function parts(text: string): string[] {
+  return text
+    .trim()
+    .split(/\s+/)
+    .flatMap((word, index) => {
+      const [first = '', ...rest] = UNSPACED.test(word) ? wordsWithoutSpaces(word) : [word];
+      return [index === 0 ? first : ` ${first}`, ...rest];
+    });
+}
+
+/** Words with the signs that follow them, with which no line begins. */
+function wordsWithoutSpaces(text: string): string[] {
+  const words: string[] = [];
+  const segments = new Intl.Segmenter(undefined, { granularity: 'word' }).segment(text);
+  for (const { segment, isWordLike } of segments)
+    if (isWordLike || words.length === 0) words.push(segment);
+    else words.push(`${words.pop()!}${segment}`);
+  return words;
+}
+
+/** Whether a text is written from right to left: its first letter is. */
+const RIGHT_TO_LEFT =
+  /^\P{L}*[\p{Script=Arabic}\p{Script=Hebrew}\p{Script=Syriac}\p{Script=Thaana}\p{Script=Nko}]/u;
 
 /** A text in lines that are not wider than `width`, at most `most` of them; what is left over is cut as in `fitted`. */
 export function wrapped(
@@ -36,14 +68,14 @@ export function wrapped(
   widthOf: (text: string) => number,
 ): readonly string[] {
   const lines: string[] = [];
-  const words = text.trim().split(/\s+/);
-  for (const [index, word] of words.entries()) {
+  const all = parts(text);
+  for (const [index, part] of all.entries()) {
     const last = lines.at(-1);
-    const longer = last === undefined ? word : `${last} ${word}`;
+    const longer = last === undefined ? part : `${last}${part}`;
     if (last !== undefined && widthOf(longer) <= width) lines[lines.length - 1] = longer;
-    else if (lines.length < most) lines.push(word);
+    else if (lines.length < most) lines.push(part.trimStart());
     else {
-      lines[lines.length - 1] = [last, ...words.slice(index)].join(' ');
+      lines[lines.length - 1] = [last, ...all.slice(index)].join('');
       break;
     }
   }
@@ -73,11 +105,14 @@ export function captioned(
     const letters = SIZES[what] * side;
     context.font = `${weight} ${Math.round(letters)}px ${FONT}`;
     context.globalAlpha = opacity;
+    const isReversed = RIGHT_TO_LEFT.test(text);
+    // Text is aligned at its start.
+    context.direction = isReversed ? 'rtl' : 'ltr';
     const lines = wrapped(text, width - 2 * edge, LINES[what], (part) => context.measureText(part).width);
     lines.forEach((line, index) => {
       const below = what === 'title' ? index : index - (lines.length - 1);
       const y = (what === 'title' ? edge + letters : height - edge) + LINES.distance * letters * below;
-      context.fillText(line, edge, y);
+      context.fillText(line, isReversed ? width - edge : edge, y);
     });
   };
   return {

@@ -64,5 +64,8 @@ const plain = (value: number): string => String(Math.round(value * 100) / 100);
 /** A file's name without its extension, cut where it is long. */
 function brief(name: string): string {
   const stem = name.replace(/\.[a-z0-9]{1,5}$/i, '');
-  return stem.length > MAX_NAME_LENGTH ? `${stem.slice(0, MAX_NAME_LENGTH - 1).trimEnd()}…` : stem;
+  // Emoji and rare letters are two units of a string.
+  const letters = [...stem];
+  const beginning = letters.slice(0, MAX_NAME_LENGTH - 1).join('');
+  return letters.length > MAX_NAME_LENGTH ? `${beginning.trimEnd()}…` : stem;
 }

@@ -41,6 +41,7 @@ test.each<[string, Partial<Inputs>]>([
   [`Descarga, ${guided}`, { song: song(4) }],
   [`to other, ${guided}`, { leader: leader(90, 'other.bvh') }],
   [`to my very own lea…, ${guided}`, { leader: leader(90, 'my very own leader.bvh') }],
+  [`to 14 letters and💃…, ${guided}`, { leader: leader(90, '14 letters and💃💃💃.bvh') }],
   [`${guided}, ${music - 0.25} music`, { settings: { ...settings, music: music - 0.25 } }],
   [`${guided}, 1.5 variety`, { settings: { ...settings, variety: 1.5 } }],
   [`${guided}, free hands`, { settings: { ...settings, holdHands: false } }],
