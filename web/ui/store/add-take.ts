@@ -91,11 +91,12 @@ function isSameAgain(made: Reaction, reaction: Reaction): boolean {
 
 /**
  * Whether a take may be replaced by one that differs from it only in weights: it is not starred, named or in a
- * comparison, it was generated here, and by the same drag or, without one, not longer ago than `SAME_CHANGE_MS`.
+ * comparison, it was generated here, and by the same drag or, without one, not longer ago than `SAME_CHANGE_MS`. The clock
+ * may have been set back since, or that of another computer be ahead.
  */
 function isReplaceable(take: Take, { other, drag }: AppState, now: number): boolean {
   const unmarked = !take.starred && take.name === null && take.id !== other && take.reaction.label === null;
-  return unmarked && (drag ? take.id === drag.take : now - take.createdAt < SAME_CHANGE_MS);
+  return unmarked && (drag ? take.id === drag.take : Math.abs(now - take.createdAt) < SAME_CHANGE_MS);
 }
 
 /** The oldest takes beyond `MAX_TAKES` that are neither starred nor named nor in use. */

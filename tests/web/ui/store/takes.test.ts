@@ -163,6 +163,13 @@ describe('a drag of guidance', () => {
     expect(page.titles).toEqual(['Take 3', 'Take 2', 'Take 1']);
   });
 
+  it('leaves a take that is from later than now, of a computer whose clock is ahead', () => {
+    beginAtRest();
+    page.now -= 3_600_000;
+    drag(0.5);
+    expect(page.state.takes).toHaveLength(2);
+  });
+
   it.each<[string, (id: string) => change.Change]>([
     ['starred', edit.takeStarred],
     ['named', (id) => edit.takeRenamed(id, 'Mine')],
