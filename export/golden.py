@@ -63,6 +63,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         per_channel(tensors["coarse"], sampling.channels),
         float(tensors["music_guidance"]),
         variety=1.0,  # the page repeats this sampling as it loads: without the seeds of the mean
+        music_fade=sampling.music_fade,
     )
     gains = layer_gains(tensors["fine"], sampling.layers)
     coarse_alone = layer_gains(torch.full_like(tensors["fine"], -1), sampling.layers)

@@ -8,6 +8,7 @@ from typing import Any
 
 from training.config import CONTROLS, FPS, STREAMS, STRIDE, from_json, to_json
 from training.diffusion.decode import RECEPTIVE_FIELD
+from training.diffusion.guidance import FADE_REACH
 from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
 from training.evaluation.metrics import beats, contact, penetration, seams
@@ -127,13 +128,17 @@ def manifest(
         "guidance": {
             "convention": {
                 "coarse": "cond + s (cond - uncond), sampled latents of the coarse layer",
-                "music": "+ m (cond - silent), sampled latents of all layers",
+                "music": "+ m (cond - silent), sampled latents of all layers; m falls to 0 where the coarse layer's "
+                "|cond - silent| rises from one norm of fade to the other, mean over reach latent frames to each side",
                 "variety": "+ (v - 1) (cond - mean over the seeds), sampled latents of the coarse layer",
                 "fine": "(1 + s) times the fine layer, decoded after the clamp",
             },
             "coarse": _range("coarse", diffusion.guidance[0]),
             "fine": _range("fine", diffusion.guidance[1]),
-            "music": _range("music", diffusion.music_guidance),
+            "music": {
+                **_range("music", diffusion.music_guidance),
+                "fade": _fade(diffusion.music_fade),
+            },
             "variety": {**_range("variety", diffusion.variety), "seeds": diffusion.mean_seeds},
         },
         "noise": {"algorithm": "philox4x32-10"},
@@ -148,6 +153,13 @@ def manifest(
         "graphs": entries,
         "golden": golden,
     }
+
+
+def _fade(norms: tuple[float, float] | None) -> dict[str, float] | None:
+    if norms is None:
+        return None
+    start, end = norms
+    return {"from": start, "to": end, "reach": FADE_REACH}
 
 
 def _range(control: str, default: float) -> dict[str, float]:

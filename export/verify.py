@@ -75,6 +75,7 @@ def differences(truth: dict[str, np.ndarray], exported: Exported, scene: Scene) 
         per_channel(given["coarse"], sampling.channels),
         float(given["music_guidance"]),
         variety=1.0,
+        music_fade=sampling.music_fade,
     )
     gains = layer_gains(given["fine"], sampling.layers)
     reactor = exported.decode(latents, given["leader"], gains, given["role"])

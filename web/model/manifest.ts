@@ -49,6 +49,13 @@ const around = v.pipe(v.number(), v.gtValue(0), v.maxValue(300));
 /** Least and greatest weight, the distance between two of them, and the default. */
 const range = v.object({ min: finite, max: finite, step: v.pipe(positive, v.gtValue(0)), default: finite });
 
+/** Norms of what the song changes between which its weight falls, and over how many latent frames to each side they are meant. */
+const fade = v.object({
+  from: positive,
+  to: v.pipe(positive, v.gtValue(0)),
+  reach: v.pipe(count, v.maxValue(100)),
+});
+
 /** Constants of the measures on the page, as Python has them; see quality/rules.ts. */
 const quality = v.object({
   contact: v.object({
@@ -143,7 +150,8 @@ export const schema = v.object({
     convention: v.record(v.string(), v.string()),
     coarse: range,
     fine: range,
-    music: range,
+    /** `fade`: where the song is trusted less, see blend.ts; null nowhere. */
+    music: v.object({ ...range.entries, fade: v.nullable(fade) }),
     /** `seeds`: how many seeds, from 0, the mean is taken of that variety keeps a seed away from. */
     variety: v.object({ ...range.entries, seeds: v.pipe(count, v.maxValue(64)) }),
   }),

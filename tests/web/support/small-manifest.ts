@@ -60,7 +60,7 @@ export function smallJson() {
       convention: {} as Record<string, string>,
       coarse: { min: -1, max: 1, step: 0.05, default: 0 },
       fine: { min: -1, max: 1, step: 0.05, default: 0 },
-      music: { min: 0, max: 4, step: 0.25, default: 2 },
+      music: { min: 0, max: 4, step: 0.25, default: 2, fade: null },
       variety: { min: 0, max: 2, step: 0.05, default: 1, seeds: 4 },
     },
     noise: { algorithm: 'philox4x32-10' },

@@ -2,6 +2,7 @@
 import type { Manifest } from '../manifest';
 
 type Latent = Pick<Manifest['latent'], 'streams' | 'layers' | 'channels'>;
+type Fade = Manifest['guidance']['music']['fade'];
 
 /** Latents (latents x layers x channels, normalised) of one dance, sampled from the same noise. */
 export interface Branches {
@@ -37,27 +38,56 @@ export function neededBranches(
 }
 
 /**
+ * Factors, 1 to 0, of what the song changes in each latent frame. Beside a leader unlike those of training, such as one who only
+ * stands there, the song can change the latents several times as much as beside any of those, and the weight of the music would
+ * multiply that until the partner falls. As `music_trust` in Python.
+ * @param length norms of what it changes in the coarse layer
+ */
+function musicTrust(length: Float64Array, { from, to, reach }: NonNullable<Fade>): Float64Array {
+  const last = length.length - 1;
+  return length.map((_, at) => {
+    let sum = 0;
+    for (let i = at - reach; i <= at + reach; i++) sum += length[Math.min(last, Math.max(0, i))]!;
+    return Math.min(1, Math.max(0, (to - sum / (2 * reach + 1)) / (to - from)));
+  });
+}
+
+/**
  * cond + m (cond - silent), in the coarse layer also + s (cond - uncond) + (v - 1)(cond - mean): variety moves the
  * seed's own coarse layer to mean + v (cond - mean). The fine layer's guidance acts where latents are decoded, see
  * `layerGains`.
+ * @param fade where the song is trusted less; null nowhere
  * @returns latents x layers x channels
  */
 export function blend(
   branches: Branches,
   { guidance, musicGuidance, variety }: Weights,
   latent: Latent,
+  fade: Fade,
 ): Float32Array {
   const out = branches.conditional.slice();
-  addMusicGuidance(out, branches, musicGuidance);
+  addMusicGuidance(out, branches, musicGuidance, latent, fade);
   addVariety(out, branches, variety, latent);
   addCoarseGuidance(out, branches, guidance, latent);
   return out;
 }
 
 /** m (cond - silent), in all layers. */
-function addMusicGuidance(out: Float32Array, { conditional, silent }: Branches, weight: number): void {
+function addMusicGuidance(
+  out: Float32Array,
+  { conditional, silent }: Branches,
+  weight: number,
+  { layers, channels }: Latent,
+  fade: Fade,
+): void {
   if (!silent || weight === 0) return;
-  for (let i = 0; i < out.length; i++) out[i]! += weight * (conditional[i]! - silent[i]!);
+  const width = layers.length * channels;
+  const change = Float64Array.from(conditional, (value, i) => value - silent[i]!);
+  const lengths = Float64Array.from({ length: out.length / width }, (_, row) =>
+    Math.hypot(...change.subarray(row * width, row * width + channels)),
+  );
+  const trust = fade ? musicTrust(lengths, fade) : lengths.fill(1);
+  for (let i = 0; i < out.length; i++) out[i]! += weight * trust[Math.floor(i / width)]! * change[i]!;
 }
 
 /** (v - 1)(cond - mean), in the coarse layer, which is the first of each latent. */

@@ -119,7 +119,7 @@ export class Pipeline {
   }
 
   async #blend(request: GenerateRequest, { signal, onProgress }: GenerateOptions): Promise<SampledDance> {
-    const { latent } = this.manifest;
+    const { latent, guidance } = this.manifest;
     checkSettings(request, this.manifest);
     const input = this.#inputOf(request);
     const wanted = neededBranches(request, latent);
@@ -130,7 +130,7 @@ export class Pipeline {
     });
     const { leader, role, height, holdHands } = request;
     return {
-      latents: blend(branches, request, latent),
+      latents: blend(branches, request, latent, guidance.music.fade),
       gains: layerGains(request.guidance, latent),
       input,
       leader,

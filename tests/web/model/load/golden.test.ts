@@ -83,7 +83,7 @@ describe('the tiny model on wasm', () => {
     const mean = array('branches').subarray(3 * size);
     const coarse = mean.filter((_, i) => Math.floor(i / channels) % layers.length === 0);
     expect(maxDifference(branches.mean ?? [], coarse)).toBeLessThan(1e-4);
-    const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent);
+    const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent, manifest.guidance.music.fade);
     expect(maxDifference(blended, array('latents'))).toBeLessThan(1e-3);
   });
 
