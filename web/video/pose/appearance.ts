@@ -1,7 +1,10 @@
 import { L } from './landmark-names';
 import { LANDMARK_SIDE, LANDMARK_WIDTH } from './landmarks';
 
-/** Mean colours of trunk and thighs, 2 x RGB, 0 to 1: a person is told from another one by their clothes. */
+/**
+ * Mean colours of trunk and thighs, 2 x RGB: a person is told from another one by their clothes. As shares of the mean colour
+ * about the person, so that a lamp of another colour or brightness changes little ("grey world", Buchsbaum 1980).
+ */
 export type Appearance = readonly number[];
 
 /** Where colours are taken: shares of the way down and across the trunk, and of the way from hip to knee. */
@@ -9,12 +12,15 @@ const TRUNK = { down: [0.2, 0.4, 0.6, 0.8], across: [0.25, 0.5, 0.75] };
 const THIGH = [0.3, 0.5, 0.7];
 /** About each of these places five pixels are taken, so far apart. */
 const SPREAD = 2;
+/** Of the picture every so many pixels are looked at for its mean colour, which counts as at least so bright. */
+const SAMPLED = 7;
+const DARKEST = 0.02;
 
 /**
  * An appearance that differs by more than this from the person's may be somebody else's. In films of mannequins in colours of
  * people the dancer's own differ by 0.18 at the most, mostly by less than 0.1, and a partner's in other clothes by 0.3.
  */
-const MAX_DIFFERENCE = 0.16;
+const MAX_DIFFERENCE = 0.29;
 /** So many pictures are learnt from before anybody is taken for somebody else. */
 const FIRST_PICTURES = 10;
 /** Share of a new picture in what is known after that. */
@@ -38,7 +44,10 @@ export function appearanceOf(input: Float32Array, landmarks: Float32Array): Appe
     between(leftHip, place(L.left_knee), down),
     between(rightHip, place(L.right_knee), down),
   ]);
-  return [...meanColour(input, trunk), ...meanColour(input, thighs)];
+  const around = surroundings(input);
+  return [trunk, thighs].flatMap((places) =>
+    meanColour(input, places).map((value, channel) => value / around[channel]!),
+  );
 }
 
 /** What a person looks like, learnt while they are followed. */
@@ -67,6 +76,20 @@ function colourDifference(a: Appearance, b: Appearance): number {
 
 function between([ax, ay]: Place, [bx, by]: Place, share: number): Place {
   return [ax + (bx - ax) * share, ay + (by - ay) * share];
+}
+
+/** Mean colour of a picture, at least `DARKEST`, without what is black: that is beyond the edges of the video. */
+function surroundings(input: Float32Array): number[] {
+  const size = LANDMARK_SIDE * LANDMARK_SIDE;
+  const sums = [0, 0, 0];
+  let count = 0;
+  for (let i = 0; i < size; i += SAMPLED) {
+    const colour = [input[i]!, input[size + i]!, input[2 * size + i]!];
+    if (Math.max(...colour) === 0) continue;
+    count++;
+    colour.forEach((value, channel) => (sums[channel]! += value));
+  }
+  return sums.map((sum) => Math.max(DARKEST, sum / Math.max(1, count)));
 }
 
 /** Mean colour about places of a picture, without what is outside of it; black where all are. */
