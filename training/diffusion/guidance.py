@@ -59,9 +59,9 @@ def blend(
 def music_trust(change: Tensor, fade: tuple[float, float]) -> Tensor:
     """Factors (..., L), 1 to 0, of what the song changes in the coarse layer (..., L, C).
 
-    Beside a leader unlike those of training, such as one who only stands there, the song can change the latents
-    several times as much as beside any of those. The weight of the music would multiply that until the partner falls.
-    So the factor is 1 where the norm, averaged over 2 seconds, is at most fade[0], and falls to 0 at fade[1].
+    Beside some leaders the song changes the latents several times as much as beside any of those of training. The
+    weight of the music would multiply that until the partner falls. So the factor is 1 where the norm, averaged over
+    2 seconds, is at most fade[0], and falls to 0 at fade[1].
     """
     lengths = change.norm(dim=-1)
     window = 2 * FADE_REACH + 1

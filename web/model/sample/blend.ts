@@ -38,9 +38,8 @@ export function neededBranches(
 }
 
 /**
- * Factors, 1 to 0, of what the song changes in each latent frame. Beside a leader unlike those of training, such as one who only
- * stands there, the song can change the latents several times as much as beside any of those, and the weight of the music would
- * multiply that until the partner falls. As `music_trust` in Python.
+ * Factors, 1 to 0, of what the song changes in each latent frame. Beside some leaders that is several times as much as beside
+ * any of those of training, and the weight of the music would multiply it until the partner falls. As `music_trust` in Python.
  * @param length norms of what it changes in the coarse layer
  */
 function musicTrust(length: Float64Array, { from, to, reach }: NonNullable<Fade>): Float64Array {
