@@ -65,7 +65,6 @@ def tiny_model(seed: int = 0) -> Model:
         steps=4,
         last_time=0.25,
         music_guidance=1.0,
-        music_fade=(0.1, 0.2),
         foot_contact=0.5,
     )
     return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion, CARD.reference_height)
