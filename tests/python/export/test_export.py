@@ -123,7 +123,13 @@ def with_defaults(**changes: Any) -> Model:
 
 def test_an_exported_model_is_sampled_by_default_as_the_checkpoint_is() -> None:
     model = with_defaults(
-        steps=3, last_time=0.5, guidance=(0.25, -0.5), music_guidance=2.0, variety=1.5, mean_seeds=3
+        steps=3,
+        last_time=0.5,
+        guidance=(0.25, -0.5),
+        music_guidance=2.0,
+        music_fade=(0.5, 0.75),
+        variety=1.5,
+        mean_seeds=3,
     )
     exported = Exported(manifest(model, tiny.CARD, {}, {}), {}).sampling
     for field in fields(exported):
