@@ -2,8 +2,8 @@ import { gaussianFilter, windowMaximum, windowMinimum } from '../math/statistics
 import { lowered, type SolvedMotion } from '../skeleton/clip';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
 
-/** Height of the lower toe up to which a dancer stands, metres: a planted toe is at 0.03. */
-const STANDING_HEIGHT = 0.045;
+/** Height of a toe up to which it stands, metres: a planted one is at 0.03. */
+export const STANDING_HEIGHT = 0.045;
 /** A hop is over after this time, seconds. */
 const HOP = 0.5;
 /** Standard deviation in time of the way down and up again, seconds. */

@@ -1,5 +1,7 @@
 import { gaussianFilter } from '../math/statistics';
 import type { SolvedMotion } from '../skeleton/clip';
+import { JOINT_COUNT } from '../skeleton/skeleton';
+import { STANDING_HEIGHT } from './bring-down';
 import { CONTACT_SPEED, RELEASE_SPEED, slowestFootSpeed } from './foot-contacts';
 import { footShift } from './least-squares-shift';
 import { withShiftedFeet } from './shifted-limb';
@@ -30,9 +32,9 @@ function slidingOf(motion: SolvedMotion): Float64Array {
 
 /**
  * Footstep synthesis: a dancer who slides over the floor on both feet, as one whose partner travels farther than the legs
- * were made to step, steps instead. In turn, each foot stands for half of the cycle and is lifted to its next place in the
- * other half, the more so the faster both slide; elsewhere nothing changes. Joints above the knees do not move, feet keep
- * their rotations. Pure.
+ * were made to step, steps instead. In turn, each foot stands on the floor for half of the cycle and is lifted to its next
+ * place in the other half, the more so the faster both slide; elsewhere nothing changes. Joints above the knees do not
+ * move, feet keep their rotations. Pure.
  *
  * Which foot stands is told by the time in the dance alone, so motions that differ little step alike: while guidance is
  * changed, the feet go smoothly with it.
@@ -51,7 +53,10 @@ export function withFootsteps(motion: SolvedMotion, firstFrame: number): SolvedM
     const held = sliding.map((share, frame) => (flight(frame) < 0 ? STAND_WEIGHT * share : 0));
     const raised = Float64Array.from({ length: frames }, (_, frame) => {
       const lift = Math.sin(Math.PI * Math.max(0, flight(frame))) ** 2;
-      return STEP_HEIGHT * lift * sliding[Math.min(frame, frames - 2)]!;
+      // Who slides may hover too: both feet go down to the floor before one of them is lifted.
+      const toe = motion.positions[(frame * JOINT_COUNT + leg.toe) * 3 + 1]!;
+      const above = Math.max(0, toe - STANDING_HEIGHT);
+      return (STEP_HEIGHT * lift - above) * sliding[Math.min(frame, frames - 2)]!;
     });
     return { ...footShift(motion, leg, { weights: () => held, smoothness: SMOOTHNESS_WEIGHT }), y: raised };
   });

@@ -8,9 +8,10 @@ import { eased, madeStander } from '../../support/made-stander';
 import { at, expectSound, moves, top } from '../../support/moved-joints';
 
 /** Who is carried at so many m/s from frame 60 to 150 of 240, and stands before and after. */
-const carried = (speed: number): SolvedMotion =>
+const carried = (speed: number, lift = 0): SolvedMotion =>
   madeStander({
     frames: 240,
+    lift: () => lift,
     path: (frame) => [(speed / 30) * Math.min(90, Math.max(0, frame - 60)), 0],
   });
 const share = (values: ArrayLike<number>, fits: (value: number) => boolean): number =>
@@ -49,6 +50,18 @@ describe('a dancer who slides on both feet', () => {
     // A cycle of 20 frames at 1.2 m/s.
     expect(long.length).toBeGreaterThanOrEqual(4);
     expect(long.reduce((sum, step) => sum + step, 0) / long.length).toBeCloseTo(0.8, 1);
+  });
+
+  test('stands on a foot that would hover, and lifts it no higher than the other', () => {
+    const hovering = carried(1.2, 0.4);
+    const heights = (motion: SolvedMotion): number[] =>
+      Array.from({ length: 78 }, (_, i) => at(motion, 66 + i, J.left_foot)[1]);
+    expect(Math.min(...heights(hovering))).toBeGreaterThan(0.1);
+    const down = withFootsteps(hovering, 0);
+    expectSound(hovering, down);
+    expect(share(heights(down), (height) => height < 0.05)).toBeGreaterThan(0.45);
+    expect(Math.min(...heights(down))).toBeGreaterThan(0.04);
+    expect(top(heights(down))).toBeLessThan(0.1);
   });
 
   test('steps where the foot lock is on', () => {
