@@ -62,6 +62,7 @@ describe('a dancer who slides on both feet', () => {
     expect(share(heights(down), (height) => height < 0.05)).toBeGreaterThan(0.45);
     expect(Math.min(...heights(down))).toBeGreaterThan(0.04);
     expect(top(heights(down))).toBeLessThan(0.1);
+    expect(share(heights(withFootLock(hovering)), (height) => height < 0.05)).toBeGreaterThan(0.45);
   });
 
   test('steps where the foot lock is on', () => {
