@@ -75,7 +75,8 @@ def main(options: Options) -> None:
     leader = (leader - middle).astype(np.float32)
     reactor = react(model, Request(leader, music, options.seed))
     options.out.mkdir(parents=True, exist_ok=True)
-    np.savez(options.out / "motions.npz", leader=leader, reactor=reactor)
+    beats = np.flatnonzero(music[:, -1]).astype(np.int32)
+    np.savez(options.out / "motions.npz", leader=leader, reactor=reactor, beats=beats)
     for start in range(0, int(options.seconds) - 8, 8):
         filmstrip(leader, reactor, options.out / f"from_{start}.png", start=start)
     print(f"{len(leader) / FPS:.1f} s in {options.out}")

@@ -142,9 +142,11 @@ def reactor_generator(
     return generate
 
 
-def solve_with_node(motions: Sequence[np.ndarray], leader: np.ndarray, *flags: str) -> list[np.ndarray]:
-    """Motions (T, 22, 3) on the skeleton that the page draws and exports, kept out of the leader's body (T, 22, 3):
-    web/motion under Node, files in between. flags: of tools/solve.mjs.
+def solve_with_node(
+    motions: Sequence[np.ndarray], leader: np.ndarray, music: np.ndarray | None, *flags: str
+) -> list[np.ndarray]:
+    """Motions (T, 22, 3) on the skeleton that the page draws and exports, as a partner of the leader (T, 22, 3) to the
+    music (T', 54): web/motion under Node, files in between. flags: of tools/solve.mjs.
     """
 
     def write(path: Path, joints: np.ndarray) -> Path:
@@ -155,9 +157,22 @@ def solve_with_node(motions: Sequence[np.ndarray], leader: np.ndarray, *flags: s
         folder = Path(name)
         beside, rules = write(folder / "beside", leader), folder / "rules.json"
         rules.write_text(json.dumps(quality_rules()))
+        beats = folder / "beats.json"
+        beats.write_text(json.dumps([] if music is None else np.flatnonzero(music[:, -1]).tolist()))
         files = [write(folder / str(index), motion) for index, motion in enumerate(motions)]
         subprocess.run(
-            ["node", "tools/solve.mjs", "--beside", beside, "--rules", rules, *flags, *files],
+            [
+                "node",
+                "tools/solve.mjs",
+                "--beside",
+                beside,
+                "--rules",
+                rules,
+                "--beats",
+                beats,
+                *flags,
+                *files,
+            ],
             cwd=ROOT,
             check=True,
             capture_output=True,
@@ -170,7 +185,9 @@ def solve_with_node(motions: Sequence[np.ndarray], leader: np.ndarray, *flags: s
 
 SOLVERS: dict[str, Solver] = {
     "solved": solve_with_node,
-    "solved, foot lock": lambda motions, leader: solve_with_node(motions, leader, "--foot-lock"),
+    "solved, foot lock": lambda motions, leader, music: solve_with_node(
+        motions, leader, music, "--foot-lock"
+    ),
 }
 
 

@@ -4,8 +4,8 @@
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
  * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` with a `leader` keeps to what the
- * page lets a partner do (web/motion/contact/beside-partner.ts); manifest.json is the model's, whose `quality` has the
- * rules of it.
+ * page lets a partner do (web/motion/contact/beside-partner.ts), to the `beats` of a song, frames in ascending order, where
+ * there are some; manifest.json is the model's, whose `quality` has the rules of it.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -23,6 +23,8 @@ const { readNpz } = await loadWeb('model/load/npz.ts');
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/beside-partner')} */
 const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
+/** @type {typeof import('../web/motion/beats/step-timing')} */
+const { stepCounts } = await loadWeb('motion/beats/step-timing.ts');
 /** @type {typeof import('../web/motion/bvh/write')} */
 const { writeBvh } = await loadWeb('motion/bvh/write.ts');
 
@@ -38,10 +40,13 @@ function clip(name) {
 
 const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
 await mkdir(folder, { recursive: true });
+const beats = Array.from(arrays.get('beats')?.data ?? [], Number);
 for (const name of arrays.keys()) {
+  if (name === 'beats') continue;
   const solved = solve(clip(name));
   const beside = name === 'reactor' && arrays.has('leader');
-  const motion = beside ? besidePartner(solved, clip('leader'), quality) : solved;
+  const steps = stepCounts(beats, solved.frames, solved.fps);
+  const motion = beside ? besidePartner(solved, clip('leader'), quality, steps) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }

@@ -53,7 +53,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
   await app.settled();
   const lock = page.getByRole('switch', { name: 'Foot lock' });
   await expect(lock).toBeChecked();
-  await expect(lock).toHaveAccessibleDescription('Keeps feet from sliding: they stand or step');
+  await expect(lock).toHaveAccessibleDescription('Keeps feet that stand from sliding');
   const locked = await app.onScreen();
   await page.getByRole('switch', { name: 'Hold hands' }).focus();
   await page.keyboard.press('Tab');

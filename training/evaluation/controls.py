@@ -50,10 +50,11 @@ def measure_controls(
         dance: ControlledDance, changed: Mapping[str, float], other_song: bool = False
     ) -> list[np.ndarray]:
         weights = {**defaults, **changed}
+        music = dance.other_music if other_song else dance.music
         made = [
             generate(
                 dance.leader,
-                dance.other_music if other_song else dance.music,
+                music,
                 seed,
                 guidance=(weights["coarse"], weights["fine"]),
                 music_guidance=weights["music"],
@@ -61,7 +62,7 @@ def measure_controls(
             )
             for seed in seeds
         ]
-        return solve(made, dance.leader) if solve else made
+        return solve(made, dance.leader, music) if solve else made
 
     before = [make(dance, {}) for dance in dances]
     result: dict[str, list[dict[str, float]]] = {}

@@ -160,7 +160,9 @@ def _rows(
     rows: dict[str, Motions] = {TRUTH: {i.duet.name: [i.duet.reactor] for i in held_out}, **made}
     for name, solve in solvers.items():
         log(name)
-        rows[name] = {i.duet.name: solve(made[GENERATED][i.duet.name], i.duet.leader) for i in held_out}
+        rows[name] = {
+            i.duet.name: solve(made[GENERATED][i.duet.name], i.duet.leader, i.music) for i in held_out
+        }
     log("baselines")
     return rows | baselines(held_out, train)
 

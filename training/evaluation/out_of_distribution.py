@@ -153,7 +153,7 @@ def measure_out_of_distribution(
         reactor = generate(leader.motion, music, settings.seeds[0])
         row = measure_partner(leader.motion, reactor)
         if solve:
-            (reactor,) = solve([reactor], leader.motion)
+            (reactor,) = solve([reactor], leader.motion, music)
             row["overlap_share_solved"] = penetration(leader.motion, reactor)["ipr_capsules"]
             row |= measure_faults(leader.motion, reactor)
         group = "seen" if leader.name.startswith(settings.seen_leaders) else "unseen"

@@ -45,8 +45,12 @@ class ReactorGenerator(Protocol):
 class Solver(Protocol):
     """Fits a skeleton of constant bone lengths to generated joints, as they are drawn and exported."""
 
-    def __call__(self, motions: Sequence[np.ndarray], leader: np.ndarray, /) -> list[np.ndarray]:
-        """The fitted form of each motion (T, 22, 3), kept out of the leader's body (T, 22, 3); metres."""
+    def __call__(
+        self, motions: Sequence[np.ndarray], leader: np.ndarray, music: np.ndarray | None, /
+    ) -> list[np.ndarray]:
+        """The fitted form of each motion (T, 22, 3), as a partner of the leader (T, 22, 3) to the music (T', 54);
+        metres.
+        """
         ...
 
 

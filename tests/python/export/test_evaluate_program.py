@@ -50,7 +50,7 @@ def test_the_pages_solver_keeps_bones_rigid():
     motion = made_duet(60, 1).leader
     breathing = motion[:, :1] + (motion - motion[:, :1]) * (1 + 0.05 * np.sin(np.arange(60)))[:, None, None]
     far = motion + np.array([3, 0, 0], np.float32)
-    (solved,) = solve_with_node([breathing], far)
+    (solved,) = solve_with_node([breathing], far, None)
     assert bone_variation(breathing) > 0.02
     assert bone_variation(solved) < 1e-4
     assert np.linalg.norm(solved - breathing, axis=-1).mean() < 0.05
@@ -63,7 +63,9 @@ def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
     """
     motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
     inside = motion + np.array([0.1, 0, 0], np.float32)
-    free, solved = (solve_with_node([inside], motion + np.array([x, 0, 0], np.float32))[0] for x in (3, 0))
+    free, solved = (
+        solve_with_node([inside], motion + np.array([x, 0, 0], np.float32), None)[0] for x in (3, 0)
+    )
     aside = solved - free
     assert np.median(overlap_depth(motion, inside)) > 0.1
     body = [j for j, joint in enumerate(JOINTS) if "elbow" not in joint and "wrist" not in joint]
@@ -77,8 +79,24 @@ def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
 def test_the_row_with_foot_lock_has_less_skating() -> None:
     motion = made_duet(120, 1).leader
     far = motion + np.array([3, 0, 0], np.float32)
-    free, locked = (solve([motion], far)[0] for solve in SOLVERS.values())
+    free, locked = (solve([motion], far, None)[0] for solve in SOLVERS.values())
     assert foot_skating(locked)["skate_share"] < 0.5 * foot_skating(free)["skate_share"]
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
+def test_a_drawn_dancer_who_would_slide_steps_to_the_beats_of_the_music() -> None:
+    frames, gap = 120, 13
+    travel = np.zeros((frames, 1, 3), np.float32)
+    travel[:, 0, 0] = np.arange(frames) * 1.4 / 30
+    standing = np.repeat(made_duet(frames, 1).leader[:1], frames, axis=0)
+    carried, leader = standing + travel, standing + travel + np.array([0, 0, 1], np.float32)
+    music = np.zeros((frames, MUSIC_FEATURES), np.float32)
+    music[::gap, -1] = 1
+    (danced,) = solve_with_node([carried], leader, music)
+    speed = np.linalg.norm(np.diff(danced[:, JOINTS.index("left_ankle")], axis=0), axis=-1)
+    step = np.arange(frames - 1) // gap
+    inner = (step > 0) & (step < 8)
+    assert speed[inner & (step % 2 == 1)].mean() > 1.4 * speed[inner & (step % 2 == 0)].mean()
 
 
 def test_every_argument_of_a_generator_reaches_the_model() -> None:

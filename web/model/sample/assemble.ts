@@ -65,8 +65,8 @@ export class Assembler {
     const begin = down(first - margin);
     const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
     const clip = await this.decode(dance, { range, overlap: 0 });
-    const motion = this.#solve(clip, dance, partOfClip(leader, begin, clip.frames));
-    const locked = withFootLock(motion, begin);
+    const motion = this.#solve(clip, dance, begin);
+    const locked = withFootLock(motion);
     const inner = (solved: SolvedMotion): SolvedMotion => partOf(solved, first - begin, end - begin);
     return { from: first, motion: inner(motion), locked: inner(locked) };
   }
@@ -87,7 +87,7 @@ export class Assembler {
 
   async #finished(clip: MotionClip, dance: Dance, signal?: AbortSignal): Promise<GeneratedMotion> {
     await yieldToEvents(signal);
-    const motion = this.#solve(clip, dance, dance.leader);
+    const motion = this.#solve(clip, dance, 0);
     await yieldToEvents(signal);
     return { motion, locked: withFootLock(motion) };
   }
@@ -95,11 +95,12 @@ export class Assembler {
   /**
    * Gives the dancer their size, fits the body to the joints, and lets it keep to what it does beside the other dancer's
    * (see `besidePartner`).
-   * @param leader the frames of the loaded dancer that belong to the clip's
+   * @param from the clip's first frame in the dance
    */
-  #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {
+  #solve(clip: MotionClip, dance: Dance, from: number): SolvedMotion {
     const { skeleton, quality } = this.manifest;
-    const { scale } = dance.input;
+    const { scale, steps } = dance.input;
+    const leader = partOfClip(dance.leader, from, clip.frames);
     const offsets = Float32Array.from(
       skeleton.bodies[dance.role ?? 'reactor'].flat(),
       (value) => value / scale,
@@ -109,7 +110,8 @@ export class Assembler {
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),
     );
-    return besidePartner(solved, leader, quality, { holding: dance.holdHands });
+    const stepsThere = steps.subarray(from, from + clip.frames);
+    return besidePartner(solved, leader, quality, stepsThere, { holding: dance.holdHands });
   }
 }
 

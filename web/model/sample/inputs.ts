@@ -1,3 +1,4 @@
+import { stepCounts } from '../../motion/beats/step-timing';
 import type { MotionClip } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { ConditionInput } from './graphs';
@@ -79,10 +80,8 @@ export interface SeedsRequest {
   readonly seconds: number;
 }
 
-/** A reaction that was generated before, of which the coarse layer is to be decoded alone. */
-export interface CoarseRequest extends SolveSettings, Pick<Source, 'role'> {
-  /** The leader that it was generated for, at the size of their file. */
-  readonly leader: MotionClip;
+/** A reaction that was generated before from this source, of which the coarse layer is to be decoded alone. */
+export interface CoarseRequest extends SolveSettings, Source {
   /** latents x layers x channels, normalised, as this model generated them. */
   readonly latents: Float32Array;
 }
@@ -92,6 +91,8 @@ export interface ModelInput {
   readonly condition: ConditionInput;
   /** The clip's positions were multiplied by this to reach the model's reference height. */
   readonly scale: number;
+  /** Steps to the song's beats by each frame, `stepCounts`. */
+  readonly steps: Float64Array;
 }
 
 function refuse(message: string, hint: string): never {
@@ -180,5 +181,12 @@ export function prepareInput({ leader, music, role }: Source, manifest: Manifest
   return {
     condition: { leader: positions, music: features, musicValid, role: role === 'leader' ? 1 : 0 },
     scale,
+    steps: stepCounts(beatsOf(features, audio.features), frames, leader.fps),
   };
+}
+
+/** Frames that hold a beat: the last of the features in each. */
+function beatsOf(features: Float32Array, width: number): number[] {
+  const frames = Array.from({ length: features.length / width }, (_, frame) => frame);
+  return frames.filter((frame) => features[(frame + 1) * width - 1] === 1);
 }

@@ -85,9 +85,11 @@ export class Pipeline {
    */
   async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<GeneratedMotion> {
     checkCoarse(request, this.manifest);
-    const { leader, role } = request;
-    const input = prepareInput({ leader, role, music: null }, this.manifest);
-    const dance = { ...request, gains: coarseAlone(this.manifest.latent), input };
+    const dance = {
+      ...request,
+      gains: coarseAlone(this.manifest.latent),
+      input: prepareInput(request, this.manifest),
+    };
     return this.#assembler.beside(dance, signal);
   }
 

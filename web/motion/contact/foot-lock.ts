@@ -1,6 +1,5 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
-import { withFootsteps } from './footsteps';
 import { contactWeights, footShift } from './least-squares-shift';
 import { separateLegs } from './leg-separation';
 import { withShiftedFeet } from './shifted-limb';
@@ -32,10 +31,9 @@ export function lockFeet(
 }
 
 /**
- * The motion with foot lock: a dancer who slides on both feet steps, feet in contact stay, and legs that this brings
- * together, to where feet stand in each other's way, are apart again. Pure.
- * @param firstFrame of the whole dance, where the motion is a part of it
+ * The motion with foot lock: feet in contact stay, and legs that this brings together, to where feet stand in each other's
+ * way, are apart again. Pure.
  */
-export function withFootLock(motion: SolvedMotion, firstFrame = 0): SolvedMotion {
-  return separateLegs(lockFeet(withFootsteps(motion, firstFrame)));
+export function withFootLock(motion: SolvedMotion): SolvedMotion {
+  return separateLegs(lockFeet(motion));
 }

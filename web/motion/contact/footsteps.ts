@@ -8,8 +8,6 @@ import { withShiftedFeet } from './shifted-limb';
 
 /** Standard deviation of the Gaussian filter over the speed of the slowest joint, seconds. */
 const SPEED_SMOOTHING = 2 / 30;
-/** A step of the left and a step of the right foot together, seconds: runners take 180 steps a minute. */
-const STEP_CYCLE = 20 / 30;
 /** How high a foot is lifted in a step, metres. */
 const STEP_HEIGHT = 0.05;
 /**
@@ -32,24 +30,26 @@ function slidingOf(motion: SolvedMotion): Float64Array {
 
 /**
  * Footstep synthesis: a dancer who slides over the floor on both feet, as one whose partner travels farther than the legs
- * were made to step, steps instead. In turn, each foot stands on the floor for half of the cycle and is lifted to its next
- * place in the other half, the more so the faster both slide; elsewhere nothing changes. Joints above the knees do not
- * move, feet keep their rotations. Pure.
+ * were made to step, steps instead. In turn, each foot stands on the floor for a step and is lifted to its next place in
+ * the other's, the more so the faster both slide; elsewhere nothing changes. Joints above the knees do not move, feet keep
+ * their rotations. Pure.
  *
- * Which foot stands is told by the time in the dance alone, so motions that differ little step alike: while guidance is
+ * Which foot stands is told by the count of steps alone, so motions that differ little step alike: while guidance is
  * changed, the feet go smoothly with it.
  *
- * @param firstFrame of the whole dance, where the motion is a part of it
+ * @param counts steps that have been taken by each frame (`stepCounts`): a foot comes down where it becomes whole
  */
-export function withFootsteps(motion: SolvedMotion, firstFrame: number): SolvedMotion {
-  const { frames, fps } = motion;
+export function withFootsteps(motion: SolvedMotion, counts: Float64Array): SolvedMotion {
+  const { frames } = motion;
   if (frames < 2) return motion;
   const sliding = slidingOf(motion);
   if (!sliding.some(Boolean)) return motion;
   return withShiftedFeet(motion, (leg, side) => {
-    /** How far a foot is through its half of the cycle: negative while it stands, up to 1 while it flies. */
-    const flight = (frame: number): number =>
-      2 * (((firstFrame + frame) / fps / STEP_CYCLE + side / 2) % 1) - 1;
+    /** How far a foot is through its step: negative while it stands, 0 to 1 while it flies. */
+    const flight = (frame: number): number => {
+      const half = (counts[frame]! + side) / 2;
+      return 2 * (half - Math.floor(half)) - 1;
+    };
     const held = sliding.map((share, frame) => (flight(frame) < 0 ? STAND_WEIGHT * share : 0));
     const raised = Float64Array.from({ length: frames }, (_, frame) => {
       const lift = Math.sin(Math.PI * Math.max(0, flight(frame))) ** 2;

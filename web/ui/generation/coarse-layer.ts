@@ -9,6 +9,7 @@ import { apply, watchAll, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { coarseChanged, overlayToggled } from '../store/actions/view';
 import { otherTake } from '../store/take';
+import { requestFor } from './generation';
 
 /** Coarse layers that are kept: those of the two takes that are drawn, and of the two before them. */
 const MOST_DECODED = 4;
@@ -56,9 +57,8 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
     try {
       const generator = await model();
       for (const { inputs, latents } of missing) {
-        const { leader, settings } = inputs;
-        const { role, height, holdHands } = settings;
-        const request = { leader: leader.file.clip, latents, role, height: height ?? undefined, holdHands };
+        const { leader, music, role, height, holdHands } = requestFor(inputs, generator.manifest);
+        const request = { leader, music, role, height, holdHands, latents };
         const { motion, locked } = await generator.coarse(request, { signal });
         cacheLocked(motion, locked);
         decodedMotions.set(latents, motion);

@@ -23,7 +23,7 @@ export const mountMotionSwitches: Mount = (root, store) => {
   const hands = createSwitch('Hold hands', 'Joins hands that are near', () => {
     apply(store, holdHandsSet(!store.getState().settings?.holdHands));
   });
-  const feet = createSwitch('Foot lock', 'Keeps feet from sliding: they stand or step', () => {
+  const feet = createSwitch('Foot lock', 'Keeps feet that stand from sliding', () => {
     apply(store, footLockSet(!store.getState().footLock));
   });
   const section = el(

@@ -12,7 +12,7 @@ import { withFootLock } from '../../../../web/motion/contact/foot-lock';
 import { holdHands } from '../../../../web/motion/contact/hand-hold';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
-import { readVec, writeVec } from '../../../../web/motion/math/vec3';
+import { readVec, type Vec3, writeVec } from '../../../../web/motion/math/vec3';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { scaled } from '../../support/made-dancer';
@@ -65,6 +65,27 @@ function request(frames: number, changes: Partial<GenerateRequest> = {}): Genera
     variety: 1,
     seed: 1,
     ...changes,
+  };
+}
+
+/** A leader carried along x at so many m/s, four metres there and back. */
+function travelling(leader: MotionClip, speed: number): MotionClip {
+  const along = (frame: number): number => Math.abs((((frame * speed) / 30) % 8) - 4);
+  const positions = leader.positions.map((value, i) =>
+    i % 3 === 0 ? value + along(Math.floor(i / 66)) : value,
+  );
+  return { ...leader, positions };
+}
+
+/** The golden song with a beat every so many frames. */
+function beating(frames: number, gap: number): NonNullable<GenerateRequest['music']> {
+  const { features } = model.manifest.audio;
+  const song = request(frames).music!;
+  return {
+    ...song,
+    features: song.features.map((value, i) =>
+      i % features === features - 1 ? Number(Math.floor(i / features) % gap === 0) : value,
+    ),
   };
 }
 
@@ -154,16 +175,14 @@ describe('Pipeline', () => {
     [11, 0],
     [19.9, 0],
     // So fast that the partner steps.
+    [11, 1.5],
     [19.9, 1.5],
   ])('shows the part in view first, as it is in the whole (at %f s, %f m/s)', async (at, travel) => {
-    const { leader } = request(600);
-    const positions = leader.positions.map((value, i) =>
-      i % 3 === 0 ? value + (Math.floor(i / 66) * travel) / 30 : value,
-    );
     const weights = {
       guidance: new Float32Array(6).fill(0.5),
       musicGuidance: 2,
-      leader: { ...leader, positions },
+      leader: travelling(request(600).leader, travel),
+      music: beating(600, 13),
     };
     const playhead = { frame: at * 30, at: 0, rate: 0 };
     const previews: Preview[] = [];
@@ -304,7 +323,7 @@ describe('Pipeline', () => {
     };
     const runs = stepRuns;
     const alone = new Pipeline(manifest, watched, () => 0);
-    const { motion: coarse, locked } = await alone.coarse({ leader: large.leader, latents });
+    const { motion: coarse, locked } = await alone.coarse({ ...large, latents });
     expect(asked.map(String)).toEqual(['1,0,1,0,1,0']);
     expect(stepRuns).toBe(runs);
     expect(coarse.frames).toBe(motion.frames);
@@ -313,8 +332,37 @@ describe('Pipeline', () => {
     // Without its fine layer a reaction is its own coarse reaction.
     const width = manifest.latent.channels;
     const plain = latents.map((value, i) => (Math.floor(i / width) % 2 === 0 ? value : value + 0.5));
-    const again = await pipeline.coarse({ leader: large.leader, latents: plain });
+    const again = await pipeline.coarse({ ...large, latents: plain });
     expect(again.motion.positions).toEqual(coarse.positions);
+  });
+
+  it('steps to the beats of the song, whole or coarse, beside a leader who travels', async () => {
+    // What is decoded is the leader, a metre beside itself: it slides along on both feet.
+    const session: ModelSession = {
+      ...model.session,
+      decode: ({ leader }) => Promise.resolve(leader.map((value, i) => (i % 3 === 2 ? value + 1 : value))),
+    };
+    const slides = new Pipeline(model.manifest, session, () => 0);
+    const dance = { ...request(240), leader: travelling(request(240).leader, 1.4) };
+    for (const gap of [8, 13]) {
+      const asked = { ...dance, music: beating(240, gap) };
+      const { motion, latents } = await slides.generate(asked);
+      const { motion: coarse } = await slides.coarse({ ...asked, latents });
+      for (const { positions } of [motion, coarse]) {
+        /** Of the left foot, m/s. */
+        const speed = (frame: number): number => {
+          const at = (t: number): Vec3 => readVec(positions, t * JOINT_COUNT + J.left_ankle);
+          const [a, b] = [at(frame), at(frame + 1)];
+          return 30 * Math.hypot(b[0] - a[0], b[2] - a[2]);
+        };
+        const frames = Array.from({ length: 180 }, (_, i) => 30 + i);
+        const mean = (flies: boolean): number => {
+          const during = frames.filter((frame) => Math.floor(frame / gap) % 2 === Number(flies));
+          return during.reduce((sum, frame) => sum + speed(frame), 0) / during.length;
+        };
+        expect(mean(true), `${gap} frames`).toBeGreaterThan(1.5 * mean(false));
+      }
+    }
   });
 
   it('keeps the partner, whole or coarse, out of the body of the leader', async () => {
@@ -326,7 +374,7 @@ describe('Pipeline', () => {
     const inside = new Pipeline(model.manifest, session, () => 0);
     const { leader, ...rest } = request(120);
     const { motion, locked, latents } = await inside.generate({ leader, ...rest });
-    const coarse = await inside.coarse({ leader, latents });
+    const coarse = await inside.coarse({ leader, ...rest, latents });
     const apart = [motion, locked, coarse.motion].map(({ positions }) => {
       let [least, most] = [Infinity, 0];
       for (let frame = 0; frame < leader.frames; frame++) {
@@ -372,7 +420,7 @@ describe('Pipeline', () => {
       (await new Pipeline(manifest, session, () => 0).generate({ ...plain, height: 1.9 })).motion.positions,
     );
     expect((await counted.generate(plain)).motion.positions).toEqual(asDecoded.motion.positions);
-    const coarse = await counted.coarse({ leader: plain.leader, latents, height: 1.9 });
+    const coarse = await counted.coarse({ ...plain, latents, height: 1.9 });
     expect(standingHeight(coarse.motion.offsets)).toBeCloseTo(1.9, 5);
     // One pass of the decoder, which does not push the dance out of memory.
     await counted.generate({ ...plain, height: 1.8 });
@@ -400,7 +448,7 @@ describe('Pipeline', () => {
     expect(passes).toBe(before);
     expect(maxDifference(free.motion.positions, held.motion.positions)).toBeGreaterThan(0.0005);
     expect(holdHands(free.motion, plain.leader).positions).toEqual(held.motion.positions);
-    const coarse = { leader: plain.leader, latents: held.latents };
+    const coarse = { ...plain, latents: held.latents };
     const [one, other] = [
       await pipeline.coarse(coarse),
       await pipeline.coarse({ ...coarse, holdHands: false }),
@@ -449,12 +497,11 @@ describe('Pipeline', () => {
 
   it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {
     const { latents } = await pipeline.generate(request(120));
-    const { leader } = request(200);
-    await expect(pipeline.coarse({ leader, latents })).rejects.toMatchObject({
+    await expect(pipeline.coarse({ ...request(200), latents })).rejects.toMatchObject({
       code: 'bad-request',
       message: expect.stringMatching(/not made for this leader/) as string,
     });
-    const coarse = pipeline.coarse({ leader: request(120).leader, latents }, { signal: AbortSignal.abort() });
+    const coarse = pipeline.coarse({ ...request(120), latents }, { signal: AbortSignal.abort() });
     await expect(coarse).rejects.toThrow(/abort/i);
   });
 

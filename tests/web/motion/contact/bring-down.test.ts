@@ -1,8 +1,11 @@
 import { describe, expect, it, test } from 'vitest';
+import { stepCounts } from '../../../../web/motion/beats/step-timing';
 import { bringDown } from '../../../../web/motion/contact/bring-down';
 import { besidePartner } from '../../../../web/motion/contact/beside-partner';
-import { shiftedLevel, type SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { slowestFootSpeed } from '../../../../web/motion/contact/foot-contacts';
+import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
 
 const FPS = 30;
@@ -25,15 +28,6 @@ function dancer(heights: readonly number[]): SolvedMotion {
     ),
     fitError: 0,
   };
-}
-
-/** As `dancer`, moved along x in each frame. */
-function moved(motion: SolvedMotion, by: (frame: number) => number): SolvedMotion {
-  return shiftedLevel(
-    motion,
-    Float64Array.from({ length: motion.frames }, (_, t) => by(t)),
-    new Float64Array(motion.frames),
-  );
 }
 
 const toeOf = ({ positions }: SolvedMotion, frame: number): number =>
@@ -73,16 +67,36 @@ describe('bringing a dancer down', () => {
   });
 });
 
-test('beside a partner a dancer keeps out of their body, glides no faster than dancers go and stands', () => {
-  const still = new Array<number>(120).fill(0);
-  const partner = dancer(still);
+test('beside a partner a dancer keeps out of their body, glides no faster than dancers go, stands and steps', () => {
+  const partner = madeStander({ frames: 120 });
   // Off the floor all the time, and two metres away within a fifth of a second.
-  const wild = moved(dancer(still.map(() => 0.1)), (t) => 0.05 + 2 * Math.min(1, Math.max(0, (t - 57) / 6)));
-  const kept = besidePartner(wild, partner, small.quality);
-  expect(toeOf(kept, 60)).toBeCloseTo(0.045, 3);
+  const quick = madeStander({
+    frames: 120,
+    path: (t) => [0.05 + 2 * Math.min(1, Math.max(0, (t - 57) / 6)), 0],
+  });
+  const wild = {
+    ...quick,
+    root: quick.root.map((value, i) => (i % 3 === 1 ? value + 0.1 : value)),
+    positions: quick.positions.map((value, i) => (i % 3 === 1 ? value + 0.1 : value)),
+  };
+  const kept = besidePartner(wild, partner, small.quality, stepCounts([], 120, FPS));
+  for (const frame of [20, 100]) expect(toeOf(kept, frame)).toBeCloseTo(0.045, 3);
   expect(kept.root[0]! ** 2 + kept.root[2]! ** 2).toBeGreaterThan(0.15 ** 2);
-  const steps = Array.from({ length: 119 }, (_, t) =>
-    Math.hypot(kept.root[t * 3 + 3]! - kept.root[t * 3]!, kept.root[t * 3 + 5]! - kept.root[t * 3 + 2]!),
+  const speeds = Array.from(
+    { length: 119 },
+    (_, t) =>
+      Math.hypot(kept.root[t * 3 + 3]! - kept.root[t * 3]!, kept.root[t * 3 + 5]! - kept.root[t * 3 + 2]!) *
+      FPS,
   );
-  expect(Math.max(...steps) * FPS).toBeLessThan(1.501);
+  expect(Math.max(...speeds)).toBeLessThan(1.501);
+  // One foot stands while the body goes, to the beats where there are some.
+  const standing = (motion: SolvedMotion): number[] =>
+    [...slowestFootSpeed(motion).keys()].filter(
+      (t) => speeds[t]! > 0.55 && slowestFootSpeed(motion)[t]! < 0.3,
+    );
+  const beats = [4, 17, 30, 43, 56, 69, 82, 95, 108];
+  const danced = besidePartner(wild, partner, small.quality, stepCounts(beats, 120, FPS));
+  expect(standing(kept).length).toBeGreaterThan(10);
+  expect(standing(danced).length).toBeGreaterThan(10);
+  expect(standing(danced)).not.toEqual(standing(kept));
 });

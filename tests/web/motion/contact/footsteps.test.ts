@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import { stepCounts } from '../../../../web/motion/beats/step-timing';
 import { slowestFootSpeed } from '../../../../web/motion/contact/foot-contacts';
 import { withFootLock } from '../../../../web/motion/contact/foot-lock';
 import { withFootsteps } from '../../../../web/motion/contact/footsteps';
@@ -14,12 +15,14 @@ const carried = (speed: number, lift = 0): SolvedMotion =>
     lift: () => lift,
     path: (frame) => [(speed / 30) * Math.min(90, Math.max(0, frame - 60)), 0],
   });
+/** Steps of a third of a second. */
+const STEPS = stepCounts([], 240, 30);
 const share = (values: ArrayLike<number>, fits: (value: number) => boolean): number =>
   Array.from(values).filter(fits).length / values.length;
 
 describe('a dancer who slides on both feet', () => {
   const free = carried(1.2);
-  const stepping = withFootsteps(free, 0);
+  const stepping = withFootsteps(free, STEPS);
 
   test('steps: one foot stands while the other is lifted, in turn', () => {
     expectSound(free, stepping);
@@ -57,17 +60,17 @@ describe('a dancer who slides on both feet', () => {
     const heights = (motion: SolvedMotion): number[] =>
       Array.from({ length: 78 }, (_, i) => at(motion, 66 + i, J.left_foot)[1]);
     expect(Math.min(...heights(hovering))).toBeGreaterThan(0.1);
-    const down = withFootsteps(hovering, 0);
+    const down = withFootsteps(hovering, STEPS);
     expectSound(hovering, down);
     expect(share(heights(down), (height) => height < 0.05)).toBeGreaterThan(0.45);
     expect(Math.min(...heights(down))).toBeGreaterThan(0.04);
     expect(top(heights(down))).toBeLessThan(0.1);
-    expect(share(heights(withFootLock(hovering)), (height) => height < 0.05)).toBeGreaterThan(0.45);
+    expect(share(heights(withFootLock(down)), (height) => height < 0.05)).toBeGreaterThan(0.45);
   });
 
-  test('steps where the foot lock is on', () => {
+  test('steps under the foot lock', () => {
     const speeds = (motion: SolvedMotion): Float64Array => slowestFootSpeed(motion).subarray(66, 144);
-    const locked = withFootLock(free);
+    const locked = withFootLock(stepping);
     expectSound(free, locked);
     expect(share(speeds(locked), (speed) => speed < 0.2)).toBeGreaterThan(0.5);
   });
@@ -93,7 +96,7 @@ describe('a dancer who slides on both feet', () => {
           rotations: cut(free.rotations, 4 * JOINT_COUNT),
           positions: cut(free.positions, 3 * JOINT_COUNT),
         },
-        from,
+        STEPS.subarray(from, to),
       );
       for (const joint of FEET)
         for (let frame = 40; frame < 60; frame++)
@@ -103,8 +106,19 @@ describe('a dancer who slides on both feet', () => {
     }
   });
 
+  test('puts its feet down on the beats of the song', () => {
+    const beats = [3, 16, 29, 42, 55, 68, 81, 94, 107, 120, 133, 146, 159];
+    const danced = withFootsteps(free, stepCounts(beats, 240, 30));
+    expectSound(free, danced);
+    const left = Array.from({ length: 78 }, (_, i) => at(danced, 66 + i, J.left_foot)[1]);
+    const lift = left.map((height, i) => height - at(free, 66 + i, J.left_foot)[1]);
+    const landings = [...lift.keys()].filter((i) => i > 0 && lift[i]! < 0.001 && lift[i - 1]! > 0.001);
+    // Every second beat is the other foot's.
+    expect(landings.map((i) => 66 + i)).toEqual([81, 107, 133]);
+  });
+
   test('steps nearly alike when the motion changes little', () => {
-    const other = withFootsteps(carried(1.203), 0);
+    const other = withFootsteps(carried(1.203), STEPS);
     for (const joint of FEET) expect(top(moves(stepping, other, joint))).toBeLessThan(0.02);
   });
 });
@@ -112,7 +126,7 @@ describe('a dancer who slides on both feet', () => {
 describe('nothing is changed', () => {
   test('in a slow slide, which the foot lock holds', () => {
     const slow = carried(0.49);
-    expect(withFootsteps(slow, 0)).toBe(slow);
+    expect(withFootsteps(slow, STEPS)).toBe(slow);
   });
 
   test('where one foot stands and the other is quick', () => {
@@ -121,11 +135,11 @@ describe('nothing is changed', () => {
       lift: (frame) =>
         eased(frame, 30, 33) - eased(frame, 34, 37) + eased(frame, 50, 53) - eased(frame, 54, 57),
     });
-    expect(withFootsteps(kick, 0)).toBe(kick);
+    expect(withFootsteps(kick, STEPS)).toBe(kick);
   });
 
   test('in a motion of one frame', () => {
     const one = madeStander({ frames: 1 });
-    expect(withFootsteps(one, 0)).toBe(one);
+    expect(withFootsteps(one, STEPS)).toBe(one);
   });
 });

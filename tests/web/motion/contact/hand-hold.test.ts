@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { stepCounts } from '../../../../web/motion/beats/step-timing';
 import { besidePartner } from '../../../../web/motion/contact/beside-partner';
 import { holdHands } from '../../../../web/motion/contact/hand-hold';
 import { aboutAxis, multiply, writeQuat } from '../../../../web/motion/math/quat';
@@ -252,7 +253,7 @@ describe('holdHands', () => {
 
   it('belongs to what a dancer keeps to beside a partner', () => {
     const partner = opposite(still, apart(0.12));
-    const kept = besidePartner(drifting, partner, small.quality);
+    const kept = besidePartner(drifting, partner, small.quality, stepCounts([], drifting.frames, 30));
     expect(drift(kept, partner)).toBeLessThan(0.4 * drift(drifting, partner));
   });
 });

@@ -12,7 +12,7 @@ import type { Reaction } from '../../../../web/ui/store/reaction';
 import * as change from '../../support/actions';
 import { compareSet, takesSwapped, letterGiven } from '../../../../web/ui/store/actions/takes';
 import { small } from '../../support/small-manifest';
-import { madeSettings, leader, still } from '../../support/made-state';
+import { leader, madeSettings, song, still } from '../../support/made-state';
 
 /** A model whose answers the test gives. */
 class ManualGenerator {
@@ -64,8 +64,9 @@ describe('the coarse layer', () => {
     vi.restoreAllMocks();
   });
 
-  it('is decoded when its overlay is switched on, from the latents of the reaction and its leader', async () => {
-    const shown = reaction(new Float32Array([1, 2]));
+  it('is decoded when its overlay is switched on, from the latents of the reaction, its leader and its song', async () => {
+    const made = reaction(new Float32Array([1, 2]));
+    const shown = { ...made, inputs: { ...made.inputs, song: song(100), shift: 3 } };
     show(shown);
     await turn();
     expect(model.calls).toHaveLength(0);
@@ -74,6 +75,7 @@ describe('the coarse layer', () => {
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: true });
     expect(model.calls[0]?.request).toEqual({
       leader: shown.inputs.leader.file.clip,
+      music: { features: shown.inputs.song.data.features, frames: shown.inputs.song.data.frames, start: 3 },
       latents: shown.latents,
       role: 'reactor',
       height: undefined,
