@@ -33,7 +33,7 @@ def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: lis
         240,
         replace(QUICK, two_sample=True, seen_leaders=("indian",)),
         given,
-        solvers={"solved": lambda motions, leader: [motion + 0.001 for motion in motions]},
+        solvers={"solved": lambda motions, leader, music: [motion + 0.001 for motion in motions]},
         out_of_distribution=[
             Solo("martial_1", made_duet(300, 5).leader),
             Solo("martial_2", made_duet(90, 6).leader),
