@@ -241,15 +241,16 @@ def test_block_boundaries_are_measured_where_there_are_some():
 
 
 def test_what_is_drawn_is_measured_where_a_solver_is_given(dances: list[ControlledDance]):
-    """The solver gets all seeds of a dance beside its leader, and what it returns is measured."""
+    """The solver gets all seeds of a dance beside its leader and with its song, and what it returns is measured."""
     asked = []
 
-    def lowered(motions, leader):
-        asked.append((len(motions), float(leader[0, 0, 0])))
+    def lowered(motions, leader, music):
+        asked.append((len(motions), (float(leader[0, 0, 0]), float(music[0, 0]))))
         return [motion * np.array([1, 0.5, 1]) for motion in motions]
 
     raw = measure_controls(generate, dances, DEFAULTS, (0, 1), 240)["fine"][0]
     drawn = measure_controls(generate, dances, DEFAULTS, (0, 1), 240, lowered)["fine"][0]
     assert {count for count, _ in asked} == {2}
-    assert len({place for _, place in asked}) == len(dances)
+    # The other song is danced to where the music is moved.
+    assert {place for _, place in asked} == {(0, 1), (0, 4), (5, 2), (5, 5)}
     assert drawn["pose_moved_mm"] == pytest.approx(raw["pose_moved_mm"] / 2)

@@ -185,7 +185,8 @@ def test_leaders_are_reported_apart_by_whether_they_were_seen_in_training(tmp_pa
     def inside(leader, music, seed, **_):
         return leader.copy()
 
-    def step_aside(motions, leader):
+    def step_aside(motions, leader, music):
+        assert len(music) == len(leader)
         return [motion + np.array([3, 0, 0], np.float32) for motion in motions]
 
     groups, dances = measure_out_of_distribution(inside, leaders[:1], held_out, Settings(), step_aside)  # pyright: ignore[reportArgumentType]
