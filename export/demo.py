@@ -68,15 +68,15 @@ def main(options: Options) -> None:
         duet.reactor, duet_tempo(duet, leader_only=False), song, options.skip, options.seconds
     )
     recipe = AudioRecipe()
-    music = features(load_audio(options.song, recipe), recipe)[: len(partner)]
+    whole_song = features(load_audio(options.song, recipe), recipe)
+    music = whole_song[: len(partner)]
     model = open_model(options.model, threads=1)
     leader = put_on_floor(react(model, Request(partner, music, options.leader_seed, role=1.0)))
     middle = leader[:, 0].mean(axis=0) * np.array([1, 0, 1])
     leader = (leader - middle).astype(np.float32)
     reactor = react(model, Request(leader, music, options.seed))
     options.out.mkdir(parents=True, exist_ok=True)
-    beats = np.flatnonzero(music[:, -1]).astype(np.int32)
-    np.savez(options.out / "motions.npz", leader=leader, reactor=reactor, beats=beats)
+    np.savez(options.out / "motions.npz", leader=leader, reactor=reactor, song=whole_song)
     for start in range(0, int(options.seconds) - 8, 8):
         filmstrip(leader, reactor, options.out / f"from_{start}.png", start=start)
     print(f"{len(leader) / FPS:.1f} s in {options.out}")

@@ -42,6 +42,7 @@ from training.evaluation.report.conditions import commit, machine
 from training.evaluation.report.report import write_report
 from training.evaluation.rows import generate_motions
 from training.hfsq.reconstruct import reconstruct
+from training.music.recipe import AudioRecipe
 
 ROOT = Path(__file__).parents[1]
 
@@ -149,30 +150,18 @@ def solve_with_node(
     music (T', 54): web/motion under Node, files in between. flags: of tools/solve.mjs.
     """
 
-    def write(path: Path, joints: np.ndarray) -> Path:
-        path.write_bytes(np.ascontiguousarray(joints, dtype="<f4").tobytes())
+    def write(path: Path, values: np.ndarray) -> Path:
+        path.write_bytes(np.ascontiguousarray(values, dtype="<f4").tobytes())
         return path
 
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        beside, rules = write(folder / "beside", leader), folder / "rules.json"
-        rules.write_text(json.dumps(quality_rules()))
-        beats = folder / "beats.json"
-        beats.write_text(json.dumps([] if music is None else np.flatnonzero(music[:, -1]).tolist()))
+        beside, manifest = write(folder / "beside", leader), folder / "manifest.json"
+        manifest.write_text(json.dumps({"quality": quality_rules(), "audio": AudioRecipe().to_dict()}))
+        song = [] if music is None else ["--song", write(folder / "song", music)]
         files = [write(folder / str(index), motion) for index, motion in enumerate(motions)]
         subprocess.run(
-            [
-                "node",
-                "tools/solve.mjs",
-                "--beside",
-                beside,
-                "--rules",
-                rules,
-                "--beats",
-                beats,
-                *flags,
-                *files,
-            ],
+            ["node", "tools/solve.mjs", "--beside", beside, "--manifest", manifest, *song, *flags, *files],
             cwd=ROOT,
             check=True,
             capture_output=True,

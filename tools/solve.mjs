@@ -1,12 +1,13 @@
 /**
  * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
  *
- *     node tools/solve.mjs [--beside leader.f32 --rules rules.json [--beats beats.json]] [--foot-lock] motion.f32 [motion.f32 ...]
+ *     node tools/solve.mjs [--beside leader.f32 --manifest manifest.json [--song song.f32]] [--foot-lock] motion.f32 ...
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps; each motion is replaced by its solved
  * form, and its fit error printed in millimetres. With --beside the dancer keeps to what the page lets a partner do
- * (web/motion/contact/beside-partner.ts); rules.json is the `quality` of a manifest, beats.json a list of the frames of the
- * song's beats. With --foot-lock feet in contact do not slide, as with the page's setting of that name.
+ * (web/motion/contact/beside-partner.ts), to the beats of the song where there is one: song.f32 holds its features, frames x
+ * 54. Of manifest.json only `quality` and `audio` are read. With --foot-lock feet in contact do not slide, as with the page's
+ * setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -15,15 +16,15 @@ import { loadWeb } from './load-web.mjs';
 const { values, positionals } = parseArgs({
   options: {
     beside: { type: 'string' },
-    rules: { type: 'string' },
-    beats: { type: 'string' },
+    manifest: { type: 'string' },
+    song: { type: 'string' },
     'foot-lock': { type: 'boolean', default: false },
   },
   allowPositionals: true,
 });
-if (positionals.length === 0 || (values.beside === undefined) !== (values.rules === undefined)) {
+if (positionals.length === 0 || (values.beside === undefined) !== (values.manifest === undefined)) {
   console.error(
-    'Usage: node tools/solve.mjs [--beside leader.f32 --rules rules.json [--beats beats.json]] [--foot-lock] motion.f32 [motion.f32 ...]',
+    'Usage: node tools/solve.mjs [--beside leader.f32 --manifest manifest.json [--song song.f32]] [--foot-lock] motion.f32 ...',
   );
   process.exit(2);
 }
@@ -43,14 +44,17 @@ function read(file) {
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/beside-partner')} */
 const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
+/** @type {typeof import('../web/audio/rhythm/rhythm')} */
+const { rhythmOf } = await loadWeb('audio/rhythm/rhythm.ts');
 /** @type {typeof import('../web/motion/beats/step-timing')} */
 const { stepCounts } = await loadWeb('motion/beats/step-timing.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { withFootLock } = await loadWeb('motion/contact/foot-lock.ts');
 const leader = values.beside === undefined ? null : read(values.beside);
-const rules = values.rules === undefined ? null : JSON.parse(readFileSync(values.rules, 'utf8'));
-/** @type {number[]} */
-const beats = values.beats === undefined ? [] : JSON.parse(readFileSync(values.beats, 'utf8'));
+const manifest = values.manifest === undefined ? null : JSON.parse(readFileSync(values.manifest, 'utf8'));
+const song =
+  values.song === undefined ? null : new Float32Array(new Uint8Array(readFileSync(values.song)).buffer);
+const beats = song === null ? [] : rhythmOf(song, manifest.audio).beats;
 for (const file of positionals) {
   const clip = read(file);
   let motion = solve(clip);
@@ -59,7 +63,8 @@ for (const file of positionals) {
       console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);
       process.exit(2);
     }
-    motion = besidePartner(motion, leader, rules, stepCounts(beats, clip.frames, clip.fps));
+    const frames = beats.map((seconds) => seconds * clip.fps);
+    motion = besidePartner(motion, leader, manifest.quality, stepCounts(frames, clip.frames, clip.fps));
   }
   if (values['foot-lock']) motion = withFootLock(motion);
   writeFileSync(file, new Uint8Array(motion.positions.buffer));

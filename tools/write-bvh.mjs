@@ -4,8 +4,8 @@
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
  * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` with a `leader` keeps to what the
- * page lets a partner do (web/motion/contact/beside-partner.ts), to the `beats` of a song, frames in ascending order, where
- * there are some; manifest.json is the model's, whose `quality` has the rules of it.
+ * page lets a partner do (web/motion/contact/beside-partner.ts), to the beats of the `song` where there is one, whose features
+ * (T, 54) that is; manifest.json is the model's, whose `quality` has the rules of it.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -23,6 +23,8 @@ const { readNpz } = await loadWeb('model/load/npz.ts');
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/beside-partner')} */
 const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
+/** @type {typeof import('../web/audio/rhythm/rhythm')} */
+const { rhythmOf } = await loadWeb('audio/rhythm/rhythm.ts');
 /** @type {typeof import('../web/motion/beats/step-timing')} */
 const { stepCounts } = await loadWeb('motion/beats/step-timing.ts');
 /** @type {typeof import('../web/motion/bvh/write')} */
@@ -38,14 +40,16 @@ function clip(name) {
   return { fps: 30, frames, positions: data };
 }
 
-const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
+const { quality, audio } = JSON.parse(await readFile(manifest, 'utf8'));
 await mkdir(folder, { recursive: true });
-const beats = Array.from(arrays.get('beats')?.data ?? [], Number);
+const song = arrays.get('song')?.data;
+const beats = song instanceof Float32Array ? rhythmOf(song, audio).beats : [];
 for (const name of arrays.keys()) {
-  if (name === 'beats') continue;
+  if (name === 'song') continue;
   const solved = solve(clip(name));
   const beside = name === 'reactor' && arrays.has('leader');
-  const steps = stepCounts(beats, solved.frames, solved.fps);
+  const frames = beats.map((seconds) => seconds * solved.fps);
+  const steps = stepCounts(frames, solved.frames, solved.fps);
   const motion = beside ? besidePartner(solved, clip('leader'), quality, steps) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);

@@ -12,12 +12,14 @@ export interface Source {
   /** The dancer to react to, at the size of their file. */
   readonly leader: MotionClip;
   /**
-   * frames x features of the song; null for silence. The song starts at frame `start` of the clip, 0 when not given;
-   * below 0 its beginning is not heard.
+   * frames x features of the song; null for silence. `beats`: seconds of the song, ascending, to which the dancer steps;
+   * none when not given. The song starts at frame `start` of the clip, 0 when not given; below 0 its beginning is not
+   * heard.
    */
   readonly music: {
     readonly features: Float32Array;
     readonly frames: number;
+    readonly beats?: readonly number[] | undefined;
     readonly start?: number | undefined;
   } | null;
   /** Role to generate; the reactor when not given. */
@@ -30,6 +32,7 @@ export function sameSource(a: Source, b: Source): boolean {
     a.leader === b.leader &&
     a.role === b.role &&
     a.music?.features === b.music?.features &&
+    a.music?.beats === b.music?.beats &&
     a.music?.start === b.music?.start
   );
 }
@@ -178,15 +181,10 @@ export function prepareInput({ leader, music, role }: Source, manifest: Manifest
     features.set(heard, from * audio.features);
     musicValid.fill(1, from, to);
   }
+  const beats = music?.beats?.map((seconds) => (music.start ?? 0) + seconds * leader.fps) ?? [];
   return {
     condition: { leader: positions, music: features, musicValid, role: role === 'leader' ? 1 : 0 },
     scale,
-    steps: stepCounts(beatsOf(features, audio.features), frames, leader.fps),
+    steps: stepCounts(beats, frames, leader.fps),
   };
-}
-
-/** Frames that hold a beat: the last of the features in each. */
-function beatsOf(features: Float32Array, width: number): number[] {
-  const frames = Array.from({ length: features.length / width }, (_, frame) => frame);
-  return frames.filter((frame) => features[(frame + 1) * width - 1] === 1);
 }

@@ -197,7 +197,12 @@ function playheadOf({ playback, leader }: AppState): Playhead {
 export function requestFor({ song, leader, shift, settings }: Inputs, manifest: Manifest): GenerateRequest {
   return {
     leader: leader.file.clip,
-    music: song ? { features: song.data.features, frames: song.data.frames, start: shift } : null,
+    music: song && {
+      features: song.data.features,
+      frames: song.data.frames,
+      beats: song.data.rhythm.beats,
+      start: shift,
+    },
     guidance: guidanceMatrix(settings, manifest.latent),
     musicGuidance: settings.music,
     variety: settings.variety,

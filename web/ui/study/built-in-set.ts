@@ -66,7 +66,7 @@ export async function builtInSet(parts: BuiltInParts): Promise<StudySet> {
       );
       const { locked } = await generator.generate({
         leader: file.clip,
-        music: { features: music.features, frames: music.frames },
+        music: { features: music.features, frames: music.frames, beats: music.rhythm.beats },
         guidance: Float32Array.from(layers),
         musicGuidance: guidance.music.default,
         variety: guidance.variety.default,

@@ -28,6 +28,10 @@ test('every beat ends a step, and steps take from a quarter to half a second', (
   }
 });
 
+test('beats need not be on frames', () => {
+  expect(ends(stepCounts([0.4, 10.6, 20.2, 30.8], 45, 30))).toEqual([1, 11, 21, 31, 41]);
+});
+
 test('two beats of a song so quick that one is no step have one', () => {
   expect(ends(stepCounts(every(6, 11), 61, 30))).toEqual([12, 24, 36, 48, 60]);
 });

@@ -75,7 +75,12 @@ describe('the coarse layer', () => {
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: true });
     expect(model.calls[0]?.request).toEqual({
       leader: shown.inputs.leader.file.clip,
-      music: { features: shown.inputs.song.data.features, frames: shown.inputs.song.data.frames, start: 3 },
+      music: {
+        features: shown.inputs.song.data.features,
+        frames: shown.inputs.song.data.frames,
+        beats: shown.inputs.song.data.rhythm.beats,
+        start: 3,
+      },
       latents: shown.latents,
       role: 'reactor',
       height: undefined,
