@@ -9,7 +9,9 @@ import { shiftSet } from '../store/actions/timeline';
 /** The label of the song lane: the shift, with a button that resets it, and one that aligns the song. */
 interface SongLabel {
   readonly root: HTMLElement;
+  /** Shows the shift now, and how well the song fits in a task of its own: with a long dance it takes long to find. */
   readonly show: (state: AppState) => void;
+  readonly dispose: () => void;
 }
 
 /** @param handle the slider of the shift, which gets the focus of a button that goes */
@@ -30,6 +32,25 @@ export function createSongLabel(store: Store, handle: HTMLElement): SongLabel {
     align,
     none,
   );
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const showFit = (): void => {
+    const state = store.getState();
+    const fit = shiftAdvice(state);
+    setHidden(align, !fit?.better, handle);
+    none.hidden = !fit || fit.better !== null;
+    if (!fit) return;
+    if (!fit.better) {
+      setText(none, fit.summary);
+      none.title = fit.reason;
+      return;
+    }
+    const { by, score, before } = fit.better;
+    setText(align, `Align ${frameCountText(by)}`);
+    align.title =
+      `If the song starts ${shiftText(by, state).split(', ')[1] ?? ''}, its beats fit the leader’s accents better: ` +
+      `${percent(score)} instead of ${percent(before)}. ` +
+      'Click to move the song.';
+  };
   return {
     root,
     show: (state) => {
@@ -38,21 +59,11 @@ export function createSongLabel(store: Store, handle: HTMLElement): SongLabel {
       setText(back, `${signed(shift)} ×`);
       back.setAttribute('aria-label', `Song shift ${frameCountText(shift)}: move it back`);
       back.title = `The song is moved by ${shiftText(shift, state)}. Click to move it back.`;
-      const fit = shiftAdvice(state);
-      setHidden(align, !fit?.better, handle);
-      none.hidden = !fit || fit.better !== null;
-      if (!fit) return;
-      if (!fit.better) {
-        setText(none, fit.summary);
-        none.title = fit.reason;
-        return;
-      }
-      const { by, score, before } = fit.better;
-      setText(align, `Align ${frameCountText(by)}`);
-      align.title =
-        `If the song starts ${shiftText(by, state).split(', ')[1] ?? ''}, its beats fit the leader’s accents better: ` +
-        `${percent(score)} instead of ${percent(before)}. ` +
-        'Click to move the song.';
+      clearTimeout(timer);
+      timer = setTimeout(showFit);
+    },
+    dispose: () => {
+      clearTimeout(timer);
     },
   };
 }

@@ -105,6 +105,7 @@ export function mountTimeline(
     playhead.dispose,
     ...mounted,
     songLane.dispose,
+    songLabel.dispose,
     redraw.cancel,
     () => {
       lanes.remove();
