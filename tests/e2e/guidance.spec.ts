@@ -239,11 +239,29 @@ test('a card shows all of a dancer, however tall', async ({ page }) => {
   await page.keyboard.press('Enter');
   await app.until(({ job, reaction }) => !job && reaction?.inputs.settings.height === 2.2);
   await expect.poll(picture).not.toBe(before);
-  const top = await canvas.evaluate((card: HTMLCanvasElement) => {
+  const { top, bottom, middle, edges, inside } = await canvas.evaluate((card: HTMLCanvasElement) => {
     const { width, height } = card;
     const { data } = card.getContext('2d')!.getImageData(0, 0, width, height);
-    return data.findIndex((value, i) => i % 4 === 3 && value > 0) / 4 / width / height;
+    const rows: number[] = [];
+    const reds = { edges: [] as number[], inside: [] as number[] };
+    for (let i = 0; i < data.length; i += 4) {
+      const opacity = data[i + 3]!;
+      if (opacity === 0) continue;
+      rows.push(Math.floor(i / 4 / width) / height);
+      reds[opacity < 200 ? 'edges' : 'inside'].push(data[i]!);
+    }
+    const mean = (values: number[]): number => values.reduce((sum, value) => sum + value, 0) / values.length;
+    return {
+      top: Math.min(...rows),
+      bottom: Math.max(...rows),
+      middle: mean(rows),
+      edges: mean(reds.edges),
+      inside: mean(reds.inside),
+    };
   });
   expect(top).toBeGreaterThan(0.05);
   expect(top).toBeLessThan(0.5);
+  // More of a dancer is above half of their height than below, and no edge is drawn dark.
+  expect(middle).toBeLessThan((top + bottom) / 2);
+  expect(edges).toBeGreaterThan(0.75 * inside);
 });

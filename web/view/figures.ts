@@ -51,7 +51,7 @@ export function createFigures(library: BodyLibrary, softwareRendered: boolean): 
       if (pending.has(canvas)) continue;
       const context = canvas.getContext('2d');
       context?.clearRect(0, 0, canvas.width, canvas.height);
-      if (picture) context?.drawImage(picture, 0, 0);
+      if (picture) context?.putImageData(picture, 0, 0);
     }
   }
 
@@ -91,8 +91,8 @@ class Studio {
     }
   }
 
-  /** A canvas with the picture, of the size of `canvas`, until the next picture. */
-  async picture(figure: Figure, { width, height }: HTMLCanvasElement): Promise<HTMLCanvasElement> {
+  /** The picture of a figure, of the size of the canvas. */
+  async picture(figure: Figure, { width, height }: HTMLCanvasElement): Promise<ImageData> {
     const { renderer, scene, camera, dancers } = this;
     const dancer = dancers[figure.role];
     for (const one of Object.values(dancers)) one.show(one === dancer);
@@ -106,8 +106,7 @@ class Studio {
     renderer.setSize(width, height, false);
     await renderer.compileAsync(scene, camera);
     renderer.render(scene, camera);
-    await this.finished();
-    return renderer.domElement;
+    return this.read(width, height);
   }
 
   /** Places camera and lights before a dancer. */
@@ -121,13 +120,43 @@ class Studio {
     this.lights.place(x, z, heading);
   }
 
-  /** Resolves when the picture is drawn: to fetch it before would block the page where software draws. */
-  private async finished(): Promise<void> {
+  /**
+   * What is drawn, once it is. It is fetched through a buffer, behind a fence: a canvas that is drawn into another one
+   * holds up the page until all that is drawn meanwhile is done, the stage too, which takes long where software draws.
+   */
+  private async read(width: number, height: number): Promise<ImageData> {
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.bufferData(gl.PIXEL_PACK_BUFFER, width * height * 4, gl.STREAM_READ);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, 0);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
     const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
     while (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost())
       await new Promise((resolve) => setTimeout(resolve, POLL_MS));
     gl.deleteSync(fence);
+    const pixels = new Uint8Array(width * height * 4);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, pixels);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    gl.deleteBuffer(buffer);
+    return upright(pixels, width, height);
   }
+}
+
+/** Pixels of WebGL as a picture of a canvas: from the top down, and colours not multiplied by how opaque they are. */
+function upright(pixels: Uint8Array, width: number, height: number): ImageData {
+  const picture = new ImageData(width, height);
+  for (let row = 0; row < height; row++)
+    picture.data.set(
+      pixels.subarray((height - 1 - row) * 4 * width, (height - row) * 4 * width),
+      row * 4 * width,
+    );
+  const { data } = picture;
+  for (let i = 0; i < data.length; i += 4) {
+    const opacity = data[i + 3]! / 255;
+    if (opacity > 0) for (let color = i; color < i + 3; color++) data[color] = data[color]! / opacity;
+  }
+  return picture;
 }
