@@ -22,7 +22,11 @@ const { values, positionals } = parseArgs({
   },
   allowPositionals: true,
 });
-if (positionals.length === 0 || (values.beside === undefined) !== (values.manifest === undefined)) {
+if (
+  positionals.length === 0 ||
+  (values.beside === undefined) !== (values.manifest === undefined) ||
+  (values.song !== undefined && values.beside === undefined)
+) {
   console.error(
     'Usage: node tools/solve.mjs [--beside leader.f32 --manifest manifest.json [--song song.f32]] [--foot-lock] motion.f32 ...',
   );
@@ -63,8 +67,8 @@ for (const file of positionals) {
       console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);
       process.exit(2);
     }
-    const frames = beats.map((seconds) => seconds * clip.fps);
-    motion = besidePartner(motion, leader, manifest.quality, stepCounts(frames, clip.frames, clip.fps));
+    const beatFrames = beats.map((seconds) => seconds * clip.fps);
+    motion = besidePartner(motion, leader, manifest.quality, stepCounts(beatFrames, clip.frames, clip.fps));
   }
   if (values['foot-lock']) motion = withFootLock(motion);
   writeFileSync(file, new Uint8Array(motion.positions.buffer));

@@ -48,8 +48,8 @@ for (const name of arrays.keys()) {
   if (name === 'song') continue;
   const solved = solve(clip(name));
   const beside = name === 'reactor' && arrays.has('leader');
-  const frames = beats.map((seconds) => seconds * solved.fps);
-  const steps = stepCounts(frames, solved.frames, solved.fps);
+  const beatFrames = beats.map((seconds) => seconds * solved.fps);
+  const steps = stepCounts(beatFrames, solved.frames, solved.fps);
   const motion = beside ? besidePartner(solved, clip('leader'), quality, steps) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
