@@ -70,11 +70,7 @@ export function createFigures(library: BodyLibrary, softwareRendered: boolean): 
 
 /** A renderer of its own, with lights and one dancer of each role. */
 class Studio {
-  private readonly renderer = new WebGLRenderer({
-    alpha: true,
-    antialias: true,
-    preserveDrawingBuffer: true,
-  });
+  private readonly renderer = new WebGLRenderer({ alpha: true, antialias: true });
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 1, 12);
   private readonly lights = createLights();
@@ -121,8 +117,9 @@ class Studio {
   }
 
   /**
-   * What is drawn, once it is. It is fetched through a buffer, behind a fence: a canvas that is drawn into another one
-   * holds up the page until all that is drawn meanwhile is done, the stage too, which takes long where software draws.
+   * What was drawn in this task, once it is done. It is fetched through a buffer, behind a fence: a canvas that is drawn
+   * into another one holds up the page until all that is drawn meanwhile is done, the stage too, which takes long where
+   * software draws.
    */
   private async read(width: number, height: number): Promise<ImageData> {
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
