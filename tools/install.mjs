@@ -68,8 +68,10 @@ export async function installPythonPackages() {
   if (uv) await runOrThrow('uv', ['pip', 'sync', '--python', python, pins]);
   else await runOrThrow(python, ['-m', 'pip', 'install', '--no-deps', '-r', pins]);
   // Two processes that compile librosa's numba functions at once leave a cache that crashes each later one
-  // (https://github.com/numba/numba/issues/10128), so one process compiles them all.
-  await runOrThrow(python, ['-c', 'import librosa'], { EAGER_IMPORT: '1' });
+  // (https://github.com/numba/numba/issues/10128), so one process compiles them all. Imports by name have one
+  // order; EAGER_IMPORT goes through a set, and one order in thirty ends in a circular import.
+  const imports = ['librosa', 'librosa.feature', 'librosa.util'].map((name) => `from ${name} import *`);
+  await runOrThrow(python, ['-c', imports.join('; ')]);
   writeFileSync(stamp, hash);
 }
 
