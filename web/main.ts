@@ -185,7 +185,9 @@ const services: Services = {
       const shown = videoTrack.video;
       return stage && shown
         ? (size, begin) =>
-            openBeside(size, shown, (half) => openCamera(stage, store, half, begin, createOffscreenStage))
+            openBeside(size, shown, begin, (half) =>
+              openCamera(stage, store, half, begin, createOffscreenStage),
+            )
         : null;
     },
     stageSize: () => stage?.pictureSize() ?? null,

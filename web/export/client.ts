@@ -9,7 +9,7 @@ import { writeNpz } from './npz';
 import type { VideoSource, VideoOptions } from './video/source';
 import type { VideoPlan } from './video/plan';
 
-export type { About, Dance, MotionFormat } from './dance';
+export { partOf, type About, type Dance, type MotionFormat } from './dance';
 export { atFrameRate, FRAME_RATES, type FrameRate } from './rate';
 export { estimateBytes } from './sizes';
 export { captioned } from './video/caption';

@@ -10,7 +10,7 @@ export interface About {
   readonly model: { readonly id: string; readonly name: string } | null;
   /** Guidance, seed and role, as the page has them. */
   readonly settings: object;
-  /** Start of the song after the start of the dance, frames. */
+  /** Start of the song after the first frame, frames; negative where it began before. */
   readonly shift: number;
   /** Whether feet in contact with the floor were kept from sliding, for the dancer that the model made. */
   readonly footLock: boolean;
@@ -50,24 +50,42 @@ export function metadataOf(dance: Dance): object {
 
 /** The same dance with `count` evenly spaced frames of it, or as it is when it has no more. */
 export function subsampled(dance: Dance, count: number): Dance {
+  const { frames } = firstMotion(dance);
+  if (frames <= count) return dance;
+  return withFrames(
+    dance,
+    Array.from({ length: count }, (_, i) => Math.floor((i * frames) / count)),
+  );
+}
+
+/** The frames of a dance from `from` to before `to`; the dance as it is when those are all. */
+export function partOf(dance: Dance, from: number, to: number): Dance {
+  if (from === 0 && to === firstMotion(dance).frames) return dance;
+  const part = withFrames(
+    dance,
+    Array.from({ length: to - from }, (_, i) => from + i),
+  );
+  const { song, shift } = dance.about;
+  return { ...part, about: { ...dance.about, shift: song === null ? shift : shift - from } };
+}
+
+function withFrames(dance: Dance, picked: readonly number[]): Dance {
+  const pick = (values: Float32Array, frames: number): Float32Array => {
+    const width = values.length / frames;
+    const out = new Float32Array(picked.length * width);
+    picked.forEach((frame, i) => out.set(values.subarray(frame * width, (frame + 1) * width), i * width));
+    return out;
+  };
   return {
     ...dance,
     dancers: dance.dancers.map(({ role, motion }) => {
       const { frames } = motion;
-      if (frames <= count) return { role, motion };
-      const picked = Array.from({ length: count }, (_, i) => Math.floor((i * frames) / count));
-      const pick = (values: Float32Array): Float32Array => {
-        const width = values.length / frames;
-        const out = new Float32Array(count * width);
-        picked.forEach((frame, i) => out.set(values.subarray(frame * width, (frame + 1) * width), i * width));
-        return out;
-      };
       const [root, rotations, positions] = [
-        pick(motion.root),
-        pick(motion.rotations),
-        pick(motion.positions),
+        pick(motion.root, frames),
+        pick(motion.rotations, frames),
+        pick(motion.positions, frames),
       ];
-      return { role, motion: { ...motion, frames: count, root, rotations, positions } };
+      return { role, motion: { ...motion, frames: picked.length, root, rotations, positions } };
     }),
   };
 }

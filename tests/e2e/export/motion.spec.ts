@@ -84,6 +84,27 @@ test('leader, reactor or both are saved in four formats with their metadata', as
     await save('NPZ');
   });
 
+  await test.step('the loop alone, which the name says', async () => {
+    await expect(menu).toContainText('For a part, drag a loop on the ruler');
+    await page.keyboard.press('Escape');
+    const region = await app.drawLoop(15, 45);
+    await page.keyboard.press('e');
+    await menu.getByRole('radio', { name: 'Loop' }).click();
+    const download = await save('JSON');
+    expect(download.suggestedFilename()).toMatch(/_footlock_\d\.\d-\d\.\ds_both\.json$/);
+    const { frames, shift } = JSON.parse(await readFile(await download.path(), 'utf8')) as Record<
+      string,
+      number
+    >;
+    expect([frames, shift]).toEqual([
+      Math.round((region.to - region.from) * 30),
+      -Math.round(region.from * 30),
+    ]);
+    expect(frames).toBeLessThan(60);
+    await menu.getByRole('radio', { name: 'Whole dance' }).click();
+    await save('NPZ');
+  });
+
   await test.step('the last format has the focus when the menu opens again', async () => {
     await page.keyboard.press('Escape');
     await expect(menu).toBeHidden();

@@ -178,12 +178,72 @@ test('a picture shows the moment of the stage as its camera sees it', async ({ p
   expect(saved.warm[0]).toBeGreaterThan(0.003);
 });
 
-test('the sound of a video begins where the song was shifted to', async ({ page }) => {
+/** The pixels of the reactor, in warm colours, at a moment of a video, from the middle of all of them. */
+async function reactorAt(page: Page, file: string, seconds: number): Promise<Set<string>> {
+  const written = await openWritten(page, file);
+  const pixels = await written.evaluate(async ({ video }, seconds) => {
+    const seeked = new Promise((resolve) => (video.onseeked = resolve));
+    video.currentTime = seconds;
+    await seeked;
+    const [width, height] = [video.videoWidth, video.videoHeight];
+    const context = new OffscreenCanvas(width, height).getContext('2d')!;
+    context.drawImage(video, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    const warm: [number, number][] = [];
+    for (let at = 0; at < width * height; at++)
+      if (data[4 * at]! >= 90 && data[4 * at]! >= 1.3 * data[4 * at + 2]!)
+        warm.push([at % width, Math.floor(at / width)]);
+    return warm;
+  }, seconds);
+  const middle = [0, 1].map((axis) => pixels.reduce((sum, pixel) => sum + pixel[axis]!, 0) / pixels.length);
+  return new Set(pixels.map((pixel) => pixel.map((value, axis) => Math.round(value - middle[axis]!)).join()));
+}
+
+/** Share of the pixels of either that both have. */
+function overlap(one: ReadonlySet<string>, other: ReadonlySet<string>): number {
+  const both = [...one].filter((pixel) => other.has(pixel)).length;
+  return both / (one.size + other.size - both);
+}
+
+test('the sound of a video begins where the song was shifted to, also in the video of a loop', async ({
+  page,
+}) => {
   const app = await openMenu(page, 60);
   await shiftSong(page, app, 15);
-  const { soundStart } = await contentOf(page, await (await saveVideo(page)).path());
+  const whole = await (await saveVideo(page)).path();
+  const { soundStart } = await contentOf(page, whole);
   expect(soundStart).toBeGreaterThan(0.48);
   expect(soundStart).toBeLessThan(0.55);
+
+  await test.step('the video of a loop has its pictures, and the sound begins as much earlier', async () => {
+    await page.keyboard.press('Home');
+    for (const [frames, button] of [
+      [9, 'Start here'],
+      [36, 'End here'],
+    ] as const) {
+      await page.keyboard.press('Escape');
+      for (let frame = 0; frame < frames; frame++) await page.keyboard.press('ArrowRight');
+      await page.keyboard.press('e');
+      await page.getByRole('button', { name: button }).click();
+    }
+    await expect(page.getByRole('radio', { name: 'Loop' })).toBeChecked();
+    const { from, to } = (await app.read(({ playback }) => playback.region))!;
+    expect([Math.round(from * 30), Math.round(to * 30)]).toEqual([9, 45]);
+    const download = await saveVideo(page);
+    expect(download.suggestedFilename()).toMatch(/_\d\.\d-\d\.\ds_stage\.mp4$/);
+    const { streams } = await probe(await download.path());
+    expect(streams[0]?.nb_read_frames).toBe(String(Math.round((to - from) * 30)));
+    const { soundStart } = await contentOf(page, await download.path());
+    expect(soundStart).toBeGreaterThan(0.48 - from);
+    expect(soundStart).toBeLessThan(0.55 - from);
+    // The camera frames the dancers anew where the loop begins, so their places in the pictures differ.
+    const [shown, same, other] = [
+      await reactorAt(page, await download.path(), 0.51),
+      await reactorAt(page, whole, from + 0.51),
+      await reactorAt(page, whole, 0.51),
+    ];
+    expect(overlap(shown, same)).toBeGreaterThan(0.1 + overlap(shown, other));
+  });
 });
 
 /** The encoder as Firefox has it: its decoder record has the first byte of each parameter set twice. */

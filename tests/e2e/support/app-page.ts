@@ -115,6 +115,25 @@ export class App {
     await this.until(({ job }) => !job);
   }
 
+  /**
+   * Loops from the beat nearest to a frame to the beat nearest to another, by keys.
+   *
+   * @returns the loop, seconds
+   */
+  async drawLoop(from: number, to: number): Promise<{ readonly from: number; readonly to: number }> {
+    for (const [frames, key] of [
+      [from, 'i'],
+      [to, 'o'],
+    ] as const) {
+      await this.page.keyboard.press('Home');
+      for (let frame = 0; frame < frames; frame++) await this.page.keyboard.press('ArrowRight');
+      await this.page.keyboard.press(key);
+    }
+    const region = await this.read(({ playback }) => playback.region);
+    if (!region) throw new Error('There is no loop.');
+    return region;
+  }
+
   /** The reactor's joints, frames x 22 x 3 in metres. */
   async reactor(): Promise<number[]> {
     return this.read(({ reaction }) => Array.from(reaction?.motion.positions ?? []));

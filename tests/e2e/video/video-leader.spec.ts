@@ -106,12 +106,20 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   await page.getByRole('radio', { name: /As on stage/ }).click();
   await page.getByRole('checkbox', { name: 'Show the leader’s video beside it' }).press('Space');
-  const coming = page.waitForEvent('download');
-  await page.getByRole('button', { name: 'Save video' }).click();
-  const [left, right] = await halvesOf(page, await (await coming).path());
-  // The studio is bright, and the stage is dark.
-  expect(left).toBeGreaterThan(right + 25);
-  await page.keyboard.press('Escape');
+  const besideEachOther = async (): Promise<void> => {
+    const coming = page.waitForEvent('download');
+    await page.getByRole('button', { name: 'Save video' }).click();
+    const [left, right] = await halvesOf(page, await (await coming).path());
+    // The studio is bright, and the stage is dark.
+    expect(left).toBeGreaterThan(right + 25);
+    await page.keyboard.press('Escape');
+  };
+  await besideEachOther();
+  // And in a loop, whose first picture is in the middle of the video.
+  await app.drawLoop(75, 105);
+  await page.keyboard.press('e');
+  await page.getByRole('radio', { name: 'Loop' }).click();
+  await besideEachOther();
 
   // What can't be read is a sentence, and the leader stays with its video.
   await app.drop({

@@ -1,16 +1,39 @@
 import { type Role, otherRole } from '../../common/role';
-import { atFrameRate, type Dance } from '../../export/client';
+import { atFrameRate, type Dance, partOf } from '../../export/client';
 import { withLevelHead } from '../../motion/skeleton/level-head';
 import { generatedRole } from '../store/roles';
 import { type FileNameParts, pictureFileName, videoFileName } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
 import type { AppState, DancerSelection, Saved } from '../store/state';
+import type { Span } from '../store/time-scale';
 import { takeOnStage, takeTitle } from '../store/take';
 
 /** What the file names of the reaction on the stage are made from; null without a reaction. */
 export function fileNameParts(state: AppState): FileNameParts | null {
   const { reaction, footLock, download } = state;
-  return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state), rate: download.rate };
+  return (
+    reaction && {
+      inputs: reaction.inputs,
+      footLock,
+      take: titleOnStage(state),
+      part: chosenPart(state),
+      rate: download.rate,
+    }
+  );
+}
+
+/** The loop, seconds, if it is chosen to be written and in the dance of the reaction; null for the whole dance. */
+export function chosenPart({ reaction, download, playback: { region } }: AppState): Span | null {
+  if (!reaction || !region || download.part === 'whole') return null;
+  const { fps, frames } = reaction.inputs.leader.file.clip;
+  return region.to <= frames / fps ? region : null;
+}
+
+/** The frames of the reaction's dance that are chosen to be written, the last one excluded. */
+export function chosenFrames(state: AppState, { fps, frames }: { fps: number; frames: number }): Span {
+  const part = chosenPart(state);
+  if (!part) return { from: 0, to: frames };
+  return { from: Math.round(part.from * fps), to: Math.min(frames, Math.round(part.to * fps)) };
 }
 
 /** `Take 3`, or what it was named; null for a reaction whose take was deleted. */
@@ -75,5 +98,6 @@ export function chosenDance(state: AppState): Dance | null {
       footLock,
     },
   };
-  return atFrameRate(dance, download.rate);
+  const { from, to } = chosenFrames(state, motion);
+  return atFrameRate(partOf(dance, from, to), download.rate);
 }

@@ -1,6 +1,7 @@
 import { textButton } from '../widgets/button';
 import { el, onPressOutside, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { createDownloadMotion } from './download-motion';
+import { createDownloadPart } from './download-part';
 import { createDownloadVideo } from './download-video';
 import { icon, type IconName } from '../widgets/icons';
 import type { Mount } from '../store/services';
@@ -16,7 +17,7 @@ interface MenuButton {
 }
 
 /**
- * The Download button, wide and for phones narrow, and its menu: motion, video and project. A video goes on while the
+ * The Download button, wide and for phones narrow, and its menu: part, motion, video and project. A video goes on while the
  * menu is closed; the button then shows its progress.
  */
 export const mountDownloadMenu: Mount = (root, store, services) => {
@@ -26,6 +27,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   const wide = createButton('btn primary desk', 'download', 'Download', toggle);
   const narrow = createButton('icon phone-only', 'share', null, toggle);
   const buttons = [wide, narrow];
+  const part = createDownloadPart(store);
   const motion = createDownloadMotion(store, services);
   const video = createDownloadVideo(store, services);
   const project = textButton('btn tint project-button', 'Open or save a project', () => {
@@ -34,6 +36,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   const menu = el(
     'div',
     { class: 'float menu', attributes: { role: 'dialog', 'aria-label': 'Download' } },
+    ...part.rows,
     ...motion.parts,
     video.part,
     project,
@@ -61,6 +64,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
       },
     ),
     watch(store, (state) => state.openPanel === 'download', showOpen),
+    part.dispose,
     motion.dispose,
     video.dispose,
     onPressOutside([menu, wide.element, narrow.element], () => {

@@ -106,8 +106,8 @@ export function createDownloadMotion(store: Store, services: Services): Download
 
 /** The parts of the state that are shown. */
 function shownParts(state: AppState): readonly unknown[] {
-  const { reaction, takes, footLock, download, writing, saved } = state;
-  return [reaction, takes, footLock, download, chosenRole(state), writing, saved];
+  const { reaction, takes, footLock, download, playback, writing, saved } = state;
+  return [reaction, takes, footLock, download, playback.region, chosenRole(state), writing, saved];
 }
 
 /** A format: its name, what it is for and how large the file will be; a click saves it. */

@@ -1,6 +1,6 @@
 import type { PictureSize } from '../../common/picture';
 import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
-import { fileNameParts, savedVideo } from './dance';
+import { chosenPart, fileNameParts, savedVideo } from './dance';
 import { createDownloadPicture } from './download-picture';
 import { textButton } from '../widgets/button';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
@@ -80,6 +80,7 @@ export function createDownloadVideo(
           state.takes,
           state.footLock,
           state.download,
+          state.playback.region,
           state.saved,
           state.writing,
         ],
@@ -217,7 +218,10 @@ function videoText(plan: Plan, state: AppState, { width, height }: PictureSize):
   const saved = savedVideo(state, plan.container);
   if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
-  if (plan.way === 'record') return `${container}, takes ${duration(danceDuration(state))}`;
+  if (plan.way === 'record') {
+    const part = chosenPart(state);
+    return `${container}, takes ${duration(part ? part.to - part.from : danceDuration(state))}`;
+  }
   return `${container}, ${width} × ${height}`;
 }
 

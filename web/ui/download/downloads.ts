@@ -9,7 +9,7 @@ import {
   writeMotion,
   writeVideo,
 } from '../../export/client';
-import { chosenDance, chosenRole, fileNameParts } from './dance';
+import { chosenDance, chosenFrames, chosenRole, fileNameParts } from './dance';
 import {
   downloadChosen,
   videoProgressChanged,
@@ -145,7 +145,7 @@ function createVideoJob(
   };
 }
 
-/** Writes the video of the dance on the stage, one video frame for each frame of the motion, and saves it. */
+/** Writes the video of the dance on the stage or its loop, one video frame for each frame of the motion, and saves it. */
 async function writeDance(
   store: Store,
   tools: DownloadTools,
@@ -158,17 +158,20 @@ async function writeDance(
   if (!named || !open) return;
   const size = videoSize(store, tools);
   const sound = soundOf(store);
-  const { fps, frames } = named.inputs.leader.file.clip;
+  const { clip } = named.inputs.leader.file;
+  const { fps } = clip;
+  const { from, to } = chosenFrames(state, clip);
+  const frames = to - from;
   apply(store, videoProgressChanged({ frame: 0, frames, secondsLeft: null }));
   const plan = await planVideo(size, sound !== null);
   signal.throwIfAborted();
   if (!plan) throw unsupported();
-  const stage = await open(size, 0);
+  const stage = await open(size, from / fps);
   try {
     const { theme, download } = state;
     const picture = captioned(stage.canvas, download, theme);
     const draw = async (frame: number): Promise<void> => {
-      await stage.drawAt(frame / fps);
+      await stage.drawAt((from + frame) / fps);
       picture.draw(frame / fps);
     };
     const file = await writeVideo(
@@ -178,7 +181,7 @@ async function writeDance(
         frames,
         canvas: picture.canvas,
         draw,
-        sound: sound && { file: sound, start: songStart(named.inputs) },
+        sound: sound && { file: sound, start: songStart(named.inputs) - from / fps },
       },
       plan,
       { signal, onProgress: videoProgress(store, frames, signal) },

@@ -154,6 +154,8 @@ export type DancerSelection = 'generated' | 'loaded' | 'both';
 /** The choices in the download menu. */
 export interface DownloadChoice {
   readonly who: DancerSelection;
+  /** The whole dance, or the part of it that is looped as long as there is one. */
+  readonly part: 'whole' | 'loop';
   readonly format: MotionFormat;
   /** Frames a second of a motion. */
   readonly rate: FrameRate;

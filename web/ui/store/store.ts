@@ -58,6 +58,7 @@ export function initialState(theme: Theme): AppState {
     job: null,
     download: {
       who: 'generated',
+      part: 'whole',
       format: 'bvh',
       rate: FPS,
       size: '1080p',

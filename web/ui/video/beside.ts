@@ -23,16 +23,18 @@ export function halves({ width, height }: PictureSize): {
 /**
  * Draws the leader's video in one half of the picture, whole and in step, and the dance in the other half.
  * @param video its file, and the moment at which the dance begins, seconds
+ * @param begin moment of the dance of the first picture, seconds
  * @param openStage opens what draws the dance in a size
  * @throws {AppError} what is wrong with the video
  */
 export async function openBeside(
   whole: PictureSize,
   { file, start }: { readonly file: Blob; readonly start: number },
+  begin: number,
   openStage: (size: PictureSize) => Promise<Drawn>,
 ): Promise<Drawn> {
   const { size, second } = halves(whole);
-  const pictures = await openPictures(file, start);
+  const pictures = await openPictures(file, start + begin);
   let stage: Drawn;
   try {
     stage = await openStage(size);

@@ -41,6 +41,13 @@ test('a file name holds the frame rate where it is not that of the page', () => 
   );
 });
 
+test('a file name holds the part of the dance that is written', () => {
+  const named = { inputs, footLock: true, part: { from: 12.09, to: 20.5 } };
+  expect(motionFileName(named, 'reactor', 'bvh')).toMatch(/_footlock_12\.0-20\.5s_reactor\.bvh$/);
+  expect(motionFileName(named, 'leader', 'bvh')).toBe('descarga_leader-0412_12.0-20.5s_leader.bvh');
+  expect(videoFileName(named, '1080p', 'webm')).toMatch(/_footlock_12\.0-20\.5s_1080p\.webm$/);
+});
+
 test('a leader alone is named after song and leader', () => {
   expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'leader', 'json')).toBe(
     'descarga_leader-0412_leader.json',
