@@ -80,6 +80,8 @@ const fail = (worker: Worker, message: string): void => {
 
 afterEach(() => {
   for (const worker of opened.splice(0)) worker.terminate();
+  delete seen.signal;
+  seen.buffers.length = 0;
 });
 
 describe('a connection to a worker', () => {
@@ -128,7 +130,7 @@ describe('a connection to a worker', () => {
     expect(reports).toEqual([{ half: Float32Array.of(0.5, 1) }]);
     // The input was copied, the output left the worker.
     expect(values).toHaveLength(2);
-    expect(seen.buffers.splice(0).map((buffer) => buffer.byteLength)).toEqual([0, 0]);
+    expect(seen.buffers.map((buffer) => buffer.byteLength)).toEqual([0, 0]);
     await connection.call('double', { values }, { transfers: [values.buffer] });
     expect(values).toHaveLength(0);
   });
