@@ -16,11 +16,11 @@ test.beforeEach(async ({ page }) => {
 const open = (page: Page, threads?: number) =>
   page.evaluate((options) => model.open(options), { ...TINY, threads });
 
-/** Gives the model 50 steps instead of its own: its work takes long enough to be stopped in the middle. */
-async function openSlow(page: Page): Promise<void> {
+/** Gives the model so many steps instead of its own: its work takes long enough to be stopped in the middle. */
+async function openSlow(page: Page, steps = 50): Promise<void> {
   await page.route('**/tiny/manifest.json', async (route) => {
     const manifest = (await (await route.fetch()).json()) as Manifest;
-    await route.fulfill({ json: { ...manifest, diffusion: { ...manifest.diffusion, steps: 50 } } });
+    await route.fulfill({ json: { ...manifest, diffusion: { ...manifest.diffusion, steps } } });
   });
   await open(page);
 }
@@ -99,11 +99,11 @@ test('the processor is chosen where there is only a software adapter, with the r
 });
 
 test('cancelling stops between steps, and the next call works', async ({ page }) => {
-  await openSlow(page);
+  await openSlow(page, 250);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const cancelled = await page.evaluate(() => model.generate(600, 2));
   expect(cancelled.error?.name).toBe('AbortError');
-  // The running step and one more may still be reported; without cancelling there would be twenty.
+  // The running step and one more may still be reported; without cancelling there would be a hundred.
   expect(await page.evaluate(() => model.progressInASecond())).toBeLessThanOrEqual(2);
   const next = await page.evaluate(() => model.generate(120));
   expect(next.error).toBeUndefined();

@@ -61,6 +61,8 @@ export const page = {
 
   /** How often the worker sends progress within a second: that it stops is seen from nothing coming for a time. */
   async progressInASecond(): Promise<number> {
+    // What was sent before may still wait for a page that was busy.
+    await new Promise((resolve) => setTimeout(resolve, 500));
     const before = answered;
     await new Promise((resolve) => setTimeout(resolve, 1000));
     return answered - before;
