@@ -18,7 +18,7 @@ import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
 import { demoFetched, loadDemo } from './ui/files/demo';
 import { mountDropTarget } from './ui/files/drop-target';
-import { openDropped } from './ui/files/dropped';
+import { openDropped, unpackedOrReported } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
 import { FileLoader } from './ui/files/file-loader';
 import { isProject, isVideoName } from './ui/files/file-type';
@@ -150,7 +150,7 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   useGiven: (chosen) => void files.open(chosen),
-  choose: createFileChooser(document.body, (chosen, what) => void openFiles(chosen, what)),
+  choose: createFileChooser(document.body, (chosen, what) => void openChosen(chosen, what)),
   openOffered: (file) => void offered.open(file),
   recordVideo: () => void video.record(),
   rereadLeader: (source, options) => void files.rereadLeader(source, options),
@@ -282,6 +282,18 @@ function openStage(host: HTMLElement): Stage | null {
     apply(store, problemShown(stageProblem(error)));
     return null;
   }
+}
+
+async function openChosen(chosen: readonly File[], as: FileChoice): Promise<void> {
+  const found = await unpackedOrReported(
+    chosen.map((file) => ({ path: file.name, file })),
+    store,
+  );
+  if (found)
+    await openFiles(
+      found.map(({ file }) => file),
+      as,
+    );
 }
 
 /** A project has its own song and leader, so other files beside it are not read. */

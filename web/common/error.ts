@@ -4,6 +4,10 @@ export type ErrorCode =
   | 'empty-file'
   | 'unreadable-file'
   | 'too-long'
+  // An archive of files.
+  | 'archive-damaged'
+  | 'archive-empty'
+  | 'archive-too-large'
   // A motion.
   | 'not-bvh'
   | 'not-motion'

@@ -1,5 +1,6 @@
+import { strToU8, type Zippable, zipSync } from 'fflate';
 import { madeBody, madeBvh, MIXAMO } from '../../web/support/made-bvh';
-import { truncatedBvh } from '../support/files';
+import { bvhText, truncatedBvh } from '../support/files';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 
@@ -42,3 +43,26 @@ for (const [width, height] of [
     await app.until(({ leader }) => leader?.file.report.sourceFps === 60);
     await expect(page.getByRole('button', { name: /^Leader too fast/ })).toBeHidden();
   });
+
+test('a zip archive is unpacked: one motion is read, of several one is chosen, and what is wrong with it is said', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  const zip = (name: string, files: Zippable) => ({
+    name,
+    mimeType: 'application/zip',
+    buffer: Buffer.from(zipSync(files)),
+  });
+  const frames = (count: number): Uint8Array => strToU8(bvhText({ frames: count }));
+  await app.chooseLeader(zip('one.zip', { 'takes/salsa.bvh': frames(90) }));
+  await app.until(({ leader }) => leader?.name === 'salsa.bvh');
+  await app.drop(zip('both-bvh.zip', { 'leader.bvh': frames(60), 'reactor.bvh': frames(75) }));
+  const dialog = page.getByRole('dialog', { name: 'Which of these do you want to use?' });
+  await dialog.getByRole('radio', { name: 'reactor.bvh' }).check();
+  await dialog.getByRole('button', { name: 'Use the leader' }).click();
+  await app.until(({ leader }) => leader?.name === 'reactor.bvh' && leader.file.clip.frames === 75);
+  await app.drop({ ...zip('cut.zip', {}), buffer: Buffer.from('PK\u0003\u0004 and no more') });
+  await expect(app.alert).toContainText('cut.zip cannot be unpacked');
+  expect(await app.read(({ leader }) => leader?.name)).toBe('reactor.bvh');
+});

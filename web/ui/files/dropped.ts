@@ -1,8 +1,9 @@
 import type { ModelFolder } from '../../model/client';
 import { problemShown } from '../store/actions/notices';
-import { dropProblem, emptyDropProblem } from '../store/problems';
+import { archiveProblem, dropProblem, emptyDropProblem } from '../store/problems';
 import type { DroppedFile, Files } from '../store/services';
 import { apply, type Store } from '../store/store';
+import { unpacked } from './archive';
 import type { ModelLink } from './model-link';
 
 /** All files that were dropped, also those in folders. To be called in the event's handler: after it the list is empty. */
@@ -42,6 +43,19 @@ export function modelFolder(dropped: readonly DroppedFile[]): ModelFolder | null
   return Object.fromEntries(inside.map(({ path, file }) => [path.slice(root.length), file]));
 }
 
+/** Files with those of zip archives in the place of the archives; null where one can't be unpacked, which the store reports. */
+export async function unpackedOrReported(
+  files: readonly DroppedFile[],
+  store: Store,
+): Promise<DroppedFile[] | null> {
+  try {
+    return await unpacked(files);
+  } catch (error) {
+    apply(store, problemShown(archiveProblem(error)));
+    return null;
+  }
+}
+
 /**
  * Opens what was dropped: the folder of a model, or songs and leaders. What can't be read is reported in the store.
  * @param generate generates a reaction with the model that was opened
@@ -60,8 +74,10 @@ export async function openDropped(
     apply(store, problemShown(dropProblem(error)));
     return;
   }
-  const folder = modelFolder(dropped);
-  if (dropped.length === 0) apply(store, problemShown(emptyDropProblem()));
-  else if (!folder) await files.open(dropped.map(({ file }) => file));
+  const found = await unpackedOrReported(dropped, store);
+  if (!found) return;
+  const folder = modelFolder(found);
+  if (found.length === 0) apply(store, problemShown(emptyDropProblem()));
+  else if (!folder) await files.open(found.map(({ file }) => file));
   else if (await model.open(folder)) generate();
 }

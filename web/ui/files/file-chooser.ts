@@ -8,8 +8,8 @@ const SONGS = `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,${VIDEOS}
 /** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
   song: SONGS,
-  leader: `${MOTION_ENDINGS},${VIDEOS}`,
-  any: `${SONGS},${MOTION_ENDINGS},.reactdance`,
+  leader: `${MOTION_ENDINGS},${VIDEOS},.zip`,
+  any: `${SONGS},${MOTION_ENDINGS},.reactdance,.zip`,
   project: '.reactdance,.zip',
 } as const;
 

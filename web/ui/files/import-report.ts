@@ -7,7 +7,7 @@ import { el, combineDisposers } from '../widgets/dom';
 import { countingOf, countedBeats, tempoText } from '../store/counting';
 import { centimetres, clockTime, rate } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
-import { jointText } from './joint-text';
+import { jointText } from './joints/joint-text';
 import { OFFERED_LEADERS } from './offered';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';

@@ -61,7 +61,7 @@ export function howItWorks(): HTMLElement {
       item('Song', 'mp3, wav, ogg, flac, m4a or opus. Without one the couple dances in silence.'),
       item(
         'Leader',
-        'a video of one dancer, or a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON, CSV or TRC. The dance is as long as the leader.',
+        'a video of one dancer, or a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON, CSV or TRC, also in a zip archive. The dance is as long as the leader.',
       ),
     ),
     el('h3', { text: 'Where a leader comes from' }),

@@ -201,6 +201,19 @@ export function dropProblem(error: unknown): Problem {
   };
 }
 
+/** An archive could not be unpacked. */
+export function archiveProblem(error: unknown): Problem {
+  return problemOf(
+    error,
+    {
+      code: 'unreadable-file',
+      title: 'The archive could not be read.',
+      hint: 'Unpack it and choose a file from it. Everything loaded before is unchanged.',
+    },
+    'any-file',
+  );
+}
+
 export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
@@ -217,8 +230,7 @@ const USABLE =
 
 /** What is to be done with files of motions that are not read, by their endings. */
 const OTHER_MOTIONS: readonly (readonly [RegExp, string])[] = [
-  // Such as the BVH of both dancers that the page writes.
-  [/\.zip$/i, 'Unpack it and choose a file from it. '],
+  [/\.(rar|7z|tar|t?gz)$/i, 'Unpack it and choose a file from it. '],
   [
     /\.(pkl|pickle|pt|pth)$/i,
     'A pickle may hold a program and is not opened here: load it in Python and save its arrays, such as smpl_poses and smpl_trans, with numpy.savez. ',

@@ -1,3 +1,4 @@
+import { strToU8, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { DroppedFile } from '../../../../web/ui/store/services';
 import { modelFolder, openDropped } from '../../../../web/ui/files/dropped';
@@ -54,6 +55,20 @@ describe('opening dropped files', () => {
     await open(Promise.resolve([file('a.mp3'), file('b.bvh')]));
     await open(Promise.resolve([file('m/manifest.json'), file('m/step.onnx')]));
     expect(happened).toEqual(['a.mp3', 'b.bvh', 'model of manifest.json, step.onnx', 'generate']);
+  });
+
+  it('opens what lies in a zip archive, also a model, and reports an archive that cannot be unpacked', async () => {
+    const { store, happened, open } = page();
+    const zip = (name: string, content: Uint8Array<ArrayBuffer>): DroppedFile => ({
+      path: name,
+      file: new File([content], name),
+    });
+    await open(Promise.resolve([zip('takes.zip', zipSync({ 'a.bvh': strToU8('x') }))]));
+    const model = zipSync({ tango: { 'manifest.json': strToU8('{}'), 'step.onnx': strToU8('x') } });
+    await open(Promise.resolve([zip('tango.zip', model)]));
+    await open(Promise.resolve([zip('cut.zip', model.slice(0, 40)), file('b.bvh')]));
+    expect(happened).toEqual(['a.bvh', 'model of manifest.json, step.onnx', 'generate']);
+    expect(store.getState().problem?.code).toBe('archive-damaged');
   });
 
   it('generates nothing when the model did not open', async () => {

@@ -170,8 +170,8 @@ describe('reading files', () => {
     expect(store.getState().firstVisit).toBe(true);
   });
 
-  it('says of an archive, such as the page writes for two dancers, that it is to be unpacked', async () => {
-    await files.open([file('both-bvh.zip', 'PK\u0003\u0004')]);
+  it('says of an archive that is no zip that it is to be unpacked', async () => {
+    await files.open([file('takes.7z', '7z\u00bc\u00af')]);
     expect(store.getState().problem?.hint).toContain('Unpack it');
   });
 

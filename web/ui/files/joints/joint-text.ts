@@ -1,4 +1,4 @@
-import type { LeaderReport } from '../../motion/retarget/leader';
+import type { LeaderReport } from '../../../motion/retarget/leader';
 
 type Joints = Pick<LeaderReport, 'joints' | 'estimated' | 'retargeted'>;
 

@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
-import { leaderBvh } from '../../support/leader-bvh';
-import { writeBvh } from '../../../../web/motion/bvh/write';
-import { solve } from '../../../../web/motion/fit/ik';
-import { jointCount, jointText } from '../../../../web/ui/files/joint-text';
-import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
+import { leaderBvh } from '../../../support/leader-bvh';
+import { writeBvh } from '../../../../../web/motion/bvh/write';
+import { solve } from '../../../../../web/motion/fit/ik';
+import { jointCount, jointText } from '../../../../../web/ui/files/joints/joint-text';
+import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../../support/made-bvh';
 
 const withoutToes: BodyNames = Object.fromEntries(
   Object.entries(MIXAMO).filter(([part]) => part !== 'toe'),
