@@ -33,6 +33,7 @@ async function isArchive(file: File): Promise<boolean> {
 }
 
 async function contentOf({ path, file }: DroppedFile): Promise<DroppedFile[]> {
+  if (file.size > MAX_BYTES) throw tooLarge(file.name, file.size);
   const bytes = new Uint8Array(await file.arrayBuffer());
   const sizes = new Map<string, number>();
   unzip(bytes, file.name, ({ name, originalSize }) => {
@@ -109,7 +110,7 @@ function empty(name: string): AppError {
 function tooLarge(name: string, bytes: number): AppError {
   return new AppError(
     'archive-too-large',
-    `${name} unpacks to ${Math.ceil(bytes / 1e6)} MB; up to ${Math.floor(MAX_BYTES / 1e6)} MB are read.`,
+    `${name} unpacks to ${Math.ceil(bytes / 1e6)} MB or more; up to ${Math.floor(MAX_BYTES / 1e6)} MB are read.`,
     'Unpack it with another program and choose a file from it.',
   );
 }

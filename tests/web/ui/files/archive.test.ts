@@ -88,6 +88,11 @@ describe('zip archives among given files', () => {
         return new File([bytes], 'large.zip');
       },
     ],
+    [
+      'archive-too-large',
+      () =>
+        new File(['PK', ...Array<Uint8Array<ArrayBuffer>>(257).fill(new Uint8Array(2 ** 20))], 'large.zip'),
+    ],
   ])('are refused with %s', async (code, file) => {
     await expect(unpacked(given(file()))).rejects.toMatchObject({
       code,
