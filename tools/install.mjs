@@ -108,8 +108,10 @@ export async function installBrowser() {
   if ((await findBrowser()) !== undefined) return;
   const isDebianRoot = process.getuid?.() === 0 && (await outputOf('apt-get', ['--version'])) !== undefined;
   if (isDebianRoot) {
-    await runOrThrow('apt-get', ['update']);
-    await runOrThrow('apt-get', ['install', '-y', 'chromium'], { DEBIAN_FRONTEND: 'noninteractive' });
+    await runOrThrow('apt-get', ['-o', 'Acquire::Retries=3', 'update']);
+    await runOrThrow('apt-get', ['-o', 'Acquire::Retries=3', 'install', '-y', 'chromium'], {
+      DEBIAN_FRONTEND: 'noninteractive',
+    });
   } else {
     await run('playwright', ['install', 'chromium']);
   }
