@@ -210,22 +210,6 @@ function encoders(video: RegExp, audio: RegExp): void {
   vi.stubGlobal('AudioEncoder', which(audio));
 }
 
-test('without encoders of sound the one of the page is loaded, at the next call when it could not be', async () => {
-  const size = { width: 1920, height: 1080 };
-  encoders(/^(avc1|vp8)/, /^$/);
-  vi.doMock('@mediabunny/aac-encoder', () => {
-    throw new Error('The page is offline.');
-  });
-  try {
-    expect(await planVideo(size, true)).toBeNull();
-    vi.doUnmock('@mediabunny/aac-encoder');
-    expect(await planVideo(size, true)).toMatchObject({ container: 'mp4', video: 'avc', audio: 'aac' });
-  } finally {
-    vi.doUnmock('@mediabunny/aac-encoder');
-    vi.unstubAllGlobals();
-  }
-});
-
 test('a video has the first pair of codecs that the browser has, and no sound without a song', async () => {
   const size = { width: 1280, height: 720 };
   try {
