@@ -1,5 +1,6 @@
 import { type Role, otherRole } from '../../common/role';
 import { atFrameRate, type Dance, partOf } from '../../export/client';
+import type { MotionClip } from '../../motion/skeleton/clip';
 import { withLevelHead } from '../../motion/skeleton/level-head';
 import { generatedRole } from '../store/roles';
 import { type FileNameParts, pictureFileName, videoFileName } from './file-name';
@@ -30,7 +31,7 @@ export function chosenPart({ reaction, download, playback: { region } }: AppStat
 }
 
 /** The frames of the reaction's dance that are chosen to be written, the last one excluded. */
-export function chosenFrames(state: AppState, { fps, frames }: { fps: number; frames: number }): Span {
+export function chosenFrames(state: AppState, { fps, frames }: Pick<MotionClip, 'fps' | 'frames'>): Span {
   const part = chosenPart(state);
   if (!part) return { from: 0, to: frames };
   return { from: Math.round(part.from * fps), to: Math.min(frames, Math.round(part.to * fps)) };

@@ -3,8 +3,7 @@ import { textButton } from '../widgets/button';
 import { el, setText } from '../widgets/dom';
 import { radioGroup } from '../widgets/radio-group';
 import { downloadChosen } from '../store/actions/download';
-import { regionEndSet } from '../store/actions/timeline';
-import { countedBeats, snapped } from '../store/counting';
+import { regionEndSetOnBeat } from '../store/actions/timeline';
 import { clockTime } from '../store/format';
 import { apply, type Store, watchAll } from '../store/store';
 
@@ -28,8 +27,7 @@ export function createDownloadPart(store: Store): {
   /** On phones, which have no ruler: an end of the loop where the playhead is, as the keys I and O set it. */
   const endButton = (end: 'from' | 'to', text: string): HTMLElement =>
     textButton('btn tint', text, () => {
-      const state = store.getState();
-      apply(store, regionEndSet(end, snapped(countedBeats(state), state.playback.time)));
+      apply(store, regionEndSetOnBeat(end, store.getState().playback.time));
       apply(store, downloadChosen({ part: 'loop' }));
     });
   return {

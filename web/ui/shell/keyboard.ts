@@ -1,6 +1,6 @@
 import { listen, combineDisposers } from '../widgets/dom';
 import { type Control, faderId } from '../widgets/fader';
-import { barBeside, countedBeats, snapped } from '../store/counting';
+import { barBeside } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { OVERLAYS, toggleOverlay } from './overlay-menu';
@@ -11,7 +11,7 @@ import { apply, type Store } from '../store/store';
 import { givenSet } from '../store/actions/files';
 import { problemDismissed } from '../store/actions/notices';
 import { cameraSet, panelToggled, playbackSet, SPEEDS } from '../store/actions/view';
-import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
+import { regionEndSetOnBeat, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
 import { settingOneSet } from '../store/actions/counting';
 import { canSwapTakes, takesSwapped, takeStarred } from '../store/actions/takes';
@@ -123,8 +123,8 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   '0': ({ store }) => apply(store, zoomSet(null)),
   '?': ({ store }) => apply(store, panelToggled('keys')),
   l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
-  i: ({ store, state, time }) => apply(store, regionEndSet('from', snapped(countedBeats(state), time))),
-  o: ({ store, state, time }) => apply(store, regionEndSet('to', snapped(countedBeats(state), time))),
+  i: ({ store, time }) => apply(store, regionEndSetOnBeat('from', time)),
+  o: ({ store, time }) => apply(store, regionEndSetOnBeat('to', time)),
   c: () => focusFader('coarse'),
   v: () => focusFader('fine'),
   m: () => focusFader('music'),

@@ -1,3 +1,4 @@
+import { countedBeats, snapped } from '../counting';
 import { danceDuration } from '../selectors';
 import { shiftRange } from '../song-shift';
 import type { AppState } from '../state';
@@ -66,6 +67,11 @@ export function regionEndSet(end: 'from' | 'to', time: number): Change {
     if (end === 'from') return regionSet({ from: time, to: to > time + MIN_LOOP ? to : whole })(state);
     return regionSet({ from: from < time - MIN_LOOP ? from : 0, to: time })(state);
   };
+}
+
+/** The same on the beat nearest to a time; on the time itself where there is none. */
+export function regionEndSetOnBeat(end: 'from' | 'to', time: number): Change {
+  return (state) => regionEndSet(end, snapped(countedBeats(state), time))(state);
 }
 
 /** Starts the song this many frames later than the dance, clamped to `shiftRange`. */
