@@ -20,22 +20,22 @@ export const SMPL_JOINTS: readonly SourceJoint[] = SMPL22.map((name, joint) => (
 }));
 
 /**
- * The error of a motion with more values than are read; null where it is none.
  * @param width values of one frame
+ * @throws {AppError} `too-long` where the motion has more values than are read
  */
-export function tooLong(frames: number, width: number): AppError | null {
-  if (frames * width <= MAX_VALUES) return null;
-  return new AppError(
+export function refuseTooLong(frames: number, width: number): void {
+  if (frames * width <= MAX_VALUES) return;
+  throw new AppError(
     'too-long',
     `The file has ${frames} frames of ${width} values; up to ${MAX_VALUES / 1e6} million values are read.`,
     'Export a shorter part of the dance, or fewer frames per second.',
   );
 }
 
-/** The error of a motion of fewer than two frames; null where it is none. */
-export function tooFew(frames: number): AppError | null {
-  if (frames >= 2) return null;
-  return new AppError(
+/** @throws {AppError} `too-few-frames` where the motion has fewer than two */
+export function refuseTooFew(frames: number): void {
+  if (frames >= 2) return;
+  throw new AppError(
     'too-few-frames',
     frames === 1 ? 'The file holds one frame, a pose and not a motion.' : 'The file holds no frames.',
     'Export the whole animation, not only its current frame.',
@@ -54,8 +54,7 @@ export type About = Pick<MotionSource, 'format' | 'frameRate' | 'rateAssumed' | 
 export function sourceOfPositions({ joints, places }: Positions, about: About): MotionSource {
   const width = joints.length * 3;
   const frames = places.length / width;
-  const error = tooFew(frames);
-  if (error) throw error;
+  refuseTooFew(frames);
   const localPoses = (wanted: readonly number[]) => {
     const translations = new Float32Array(wanted.length * width);
     wanted.forEach((frame, place) => {

@@ -1,5 +1,5 @@
 import { type Bone, damagedAsf, inOrder, readAsf } from './asf';
-import { tooFew, tooLong } from '../positions';
+import { refuseTooFew, refuseTooLong } from '../positions';
 import type { FileBytes } from '../read';
 import { AppError } from '../../../common/error';
 import { conjugate, multiply, type Quat, writeQuat } from '../../math/quat';
@@ -26,8 +26,7 @@ function framesOf(text: string, bones: readonly Bone[]): Frames {
     if (name === '' || name.startsWith('#') || name.startsWith(':')) return;
     if (words.length === 1 && /^\d+$/.test(name)) {
       frames.push(new Map());
-      const error = tooLong(frames.length, bones.length * 7);
-      if (error) throw error;
+      refuseTooLong(frames.length, bones.length * 7);
       return;
     }
     const count = channels.get(name);
@@ -110,8 +109,7 @@ export function readAmc(files: readonly FileBytes[]): MotionSource {
   const all = frames.length;
   const truncated = all > 2 && frames.at(-1)!.size < frames[0]!.size;
   if (truncated) frames.pop();
-  const error = tooFew(frames.length);
-  if (error) throw error;
+  refuseTooFew(frames.length);
   const tips = bones.flatMap((_, at) => (bones.some(({ parent }) => parent === at) ? [] : [at]));
   const joints: SourceJoint[] = [
     ...bones.map(({ name, parent }) => ({ name, parent, endSite: false })),

@@ -3,7 +3,7 @@ import { readBinary } from './binary';
 import { damagedFbx } from './node';
 import { type Clip, type Curve, type FbxScene, type Model, sceneOf } from './scene';
 import { rigOf } from './transform';
-import { tooLong } from '../positions';
+import { refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';
@@ -194,8 +194,7 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
     );
   }
   const { start, frames, fps } = clip;
-  const error = tooLong(frames, order.length * 6);
-  if (error) throw error;
+  refuseTooLong(frames, order.length * 6);
   const centimetres = Number(scene.settings.get('UnitScaleFactor')?.[0] ?? 1);
   const indices = new Map(order.map(({ id }, index) => [id, index]));
   const source: MotionSource = {

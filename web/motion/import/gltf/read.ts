@@ -3,7 +3,7 @@ import { type Gltf, readContainer } from './container';
 import { humanoidNames } from './humanoid';
 import { posesOf, skeletonOf } from './skeleton';
 import { onBody } from './on-body';
-import { tooLong } from '../positions';
+import { refuseTooLong } from '../positions';
 import type { FileBytes } from '../read';
 import { AppError } from '../../../common/error';
 import { pickDancer, pickFirstDancer } from '../../retarget/dancers';
@@ -46,8 +46,7 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
   if (!clip)
     throw json.animations.some(({ channels }) => channels.length > 0) ? noLength() : noMotion(format);
   const { tracks, start, frames, fps } = clip;
-  const error = tooLong(frames, skeleton.joints.length * 6);
-  if (error) throw error;
+  refuseTooLong(frames, skeleton.joints.length * 6);
   const source: MotionSource = {
     format,
     joints: skeleton.joints,

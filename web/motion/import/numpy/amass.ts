@@ -1,5 +1,5 @@
 import { AVERAGE_BODY } from '../average-body';
-import { SMPL_JOINTS, tooFew } from '../positions';
+import { refuseTooFew, SMPL_JOINTS } from '../positions';
 import type { NpzArray } from '../../../common/npz';
 import { aboutAxis, type Quat, writeQuat, IDENTITY } from '../../math/quat';
 import { length, scale, type Vec3, writeVec } from '../../math/vec3';
@@ -25,8 +25,7 @@ export function sourceOfRotations(
   about: Pick<MotionSource, 'frameRate' | 'rateAssumed'>,
 ): MotionSource {
   const [frames = 0, width = 0] = poses.shape;
-  const error = tooFew(frames);
-  if (error) throw error;
+  refuseTooFew(frames);
   const offsets = new Float32Array(SMPL22.flatMap((joint) => AVERAGE_BODY[joint]));
   const localPoses = (wanted: readonly number[]): LocalPoses => {
     const rotations = new Float32Array(wanted.length * JOINT_COUNT * 4);

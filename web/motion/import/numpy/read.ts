@@ -2,7 +2,7 @@ import { sourceOfRotations } from './amass';
 import { changesLengths } from './bone-lengths';
 import { LANDMARK_COUNTS, landmarksIn } from './landmarks';
 import { sourceOfPoints } from '../keypoints';
-import { bodyOf, JOINT_COUNTS, tooLong } from '../positions';
+import { bodyOf, JOINT_COUNTS, refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { type DamageError, type NpzArray, openNpy, type StoredArray, unzipArrays } from '../../../common/npz';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
@@ -99,15 +99,13 @@ function rotationsIn(arrays: Archive): NpzArray | null {
   const turns = whole && rotationShape(whole, firstOf(arrays, PLACES) !== null);
   if (whole && turns) {
     const { frames, width } = turns;
-    const error = tooLong(frames, Math.min(width, BODY_ROTATIONS));
-    if (error) throw error;
+    refuseTooLong(frames, Math.min(width, BODY_ROTATIONS));
     return { shape: [frames, width], data: whole.read().data };
   }
   const [root, body] = [arrays.get('root_orient'), arrays.get('pose_body')];
   const frames = root?.shape[0] ?? 0;
   if (!root || !body || !isShape(root, frames, 3) || !isShape(body, frames, BODY_ROTATIONS - 3)) return null;
-  const error = tooLong(frames, BODY_ROTATIONS);
-  if (error) throw error;
+  refuseTooLong(frames, BODY_ROTATIONS);
   const data = new Float64Array(frames * BODY_ROTATIONS);
   const [first, others] = [root.read().data, body.read().data];
   for (let frame = 0; frame < frames; frame++) {
@@ -187,8 +185,7 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   const array = chosen === undefined ? undefined : arrays.get(chosen);
   if (chosen === undefined || !array) throw noJoints(arrays);
   const { frames, count, width } = jointShape(array)!;
-  const error = tooLong(frames, count * width);
-  if (error) throw error;
+  refuseTooLong(frames, count * width);
   const values = array.read().data.filter((_, i) => i % width < 3);
   const body = (bodyOf(values, count) ?? landmarksIn(values, count))!;
   const doubt = 'Bones change their lengths all the time: the values may be rotations, not places of joints.';

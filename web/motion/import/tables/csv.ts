@@ -1,6 +1,6 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { tooLong } from '../positions';
+import { refuseTooLong } from '../positions';
 import { isOfMotive, readMotive } from './motive';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
@@ -134,8 +134,7 @@ export function readCsv(text: string, part: number): MotionSource {
     if (titles.includes('keypoint')) throw byPoint();
     throw invalid('its first line names no joints with x, y and z');
   }
-  const error = tooLong(rows.length - 1, names.length * 3);
-  if (error) throw error;
+  refuseTooLong(rows.length - 1, names.length * 3);
   const { places, times } = readRows(rows.slice(1), separator, titles, mine, names);
   const rate = rateOf(comments, times);
   return sourceOfPoints(

@@ -1,5 +1,5 @@
 import { sourceOfPoints } from '../keypoints';
-import { SMPL_JOINTS, tooLong } from '../positions';
+import { refuseTooLong, SMPL_JOINTS } from '../positions';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
@@ -34,8 +34,7 @@ function jointsOf(names: unknown, parents: unknown): readonly SourceJoint[] {
 
 /** The positions of one dancer: a list of frames of points. */
 function placesOf(frames: readonly unknown[], joints: number): Float32Array {
-  const error = tooLong(frames.length, joints * 3);
-  if (error) throw error;
+  refuseTooLong(frames.length, joints * 3);
   const places = new Float32Array(frames.length * joints * 3);
   frames.forEach((frame, i) => {
     if (!isList(frame) || frame.length !== joints)

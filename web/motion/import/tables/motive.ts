@@ -1,6 +1,6 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { tooLong } from '../positions';
+import { refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { unitOfWord } from '../../retarget/axes-and-units';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
@@ -46,8 +46,7 @@ export function readMotive(lines: readonly string[], part: number): MotionSource
   const at = part < dancers.length ? part : 0;
   const mine = columns.filter(({ dancer }) => dancer === dancers[at]);
   const rows = lines.slice(axesAt + 1);
-  const error = tooLong(rows.length, mine.length * 3);
-  if (error) throw error;
+  refuseTooLong(rows.length, mine.length * 3);
   const places = new Float32Array(rows.length * mine.length * 3);
   rows.forEach((row, frame) => {
     const cells = row.split(',');

@@ -1,6 +1,6 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { tooLong } from '../positions';
+import { refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { linesOf } from '../../../common/lines';
 import { unitOfWord } from '../../retarget/axes-and-units';
@@ -35,8 +35,7 @@ export function readTrc(text: string): MotionSource {
   if (names.length === 0) throw damaged('it names no markers');
   const rows = lines.slice(HEAD_LINES).filter((line) => line.trim() !== '');
   const width = names.length * 3;
-  const error = tooLong(rows.length, width);
-  if (error) throw error;
+  refuseTooLong(rows.length, width);
   const places = new Float32Array(rows.length * width);
   rows.forEach((row, frame) => {
     const cells = cellsOf(row).slice(FIRST);

@@ -2,7 +2,7 @@ import { MMD_JOINTS, MMD_OFFSETS, mmdBone } from './body';
 import { poseAt } from './curve';
 import { readVmdFile, type Vmd } from './file';
 import { solveLeg } from './leg-ik';
-import { tooFew } from '../positions';
+import { refuseTooFew } from '../positions';
 import { AppError } from '../../../common/error';
 import { multiply, type Quat, rotate, writeQuat } from '../../math/quat';
 import { add, type Vec3, writeVec } from '../../math/vec3';
@@ -88,8 +88,7 @@ export function readVmd(bytes: Uint8Array): MotionSource {
       'Cut the motion to the dance, or download it again: a key may be at a wrong frame.',
     );
   }
-  const error = tooFew(frames);
-  if (error) throw error;
+  refuseTooFew(frames);
   const count = MMD_JOINTS.length;
   return {
     format: 'VMD',
