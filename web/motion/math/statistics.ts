@@ -103,7 +103,7 @@ export interface Run {
 }
 
 /** The runs in which flags are set; those with fewer than `pause` samples between them are one. */
-export function runsOf(flags: readonly boolean[], pause: number): Run[] {
+export function runsOf(flags: readonly boolean[], pause = 1): Run[] {
   const runs: { from: number; to: number }[] = [];
   flags.forEach((flag, sample) => {
     if (!flag) return;

@@ -1,4 +1,5 @@
 import { FPS } from '../../motion/skeleton/clip';
+import { runsOf } from '../../motion/math/statistics';
 import type { Observations } from '../observations';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { MIN_SIGHTING } from '../pose/tracker';
@@ -105,25 +106,13 @@ export function seriesOf(observations: Observations, trim: Part | null = null): 
       }
     }
   }
-  return { width, height, frames, start, ...out, seen, gaps: gapsOf(seen) };
+  const unseen = runsOf(Array.from(seen, (flag) => flag === 0));
+  const gaps = unseen.map(({ from, to }) => ({ start: from / FPS, end: to / FPS }));
+  return { width, height, frames, start, ...out, seen, gaps };
 }
 
 /** Median time between two pictures, seconds. */
 function typicalSpacing(times: Float64Array): number {
   const steps = times.slice(1).map((time, i) => time - times[i]!);
   return steps.sort()[steps.length >> 1] ?? 1 / FPS;
-}
-
-function gapsOf(seen: Uint8Array): Gap[] {
-  const gaps: Gap[] = [];
-  let first = -1;
-  for (let frame = 0; frame <= seen.length; frame++) {
-    if (frame < seen.length && seen[frame] === 0) {
-      if (first < 0) first = frame;
-    } else if (first >= 0) {
-      gaps.push({ start: first / FPS, end: frame / FPS });
-      first = -1;
-    }
-  }
-  return gaps;
 }

@@ -1,6 +1,6 @@
 import { FPS } from '../../motion/skeleton/clip';
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
-import { gaussianFilter } from '../../motion/math/statistics';
+import { gaussianFilter, runsOf } from '../../motion/math/statistics';
 import { J } from '../../motion/skeleton/skeleton';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { L } from '../pose/landmark-names';
@@ -57,11 +57,12 @@ export function raysOf({ image, frames, width, height }: Series, landmark: numbe
  */
 export function stancesOf(series: Series, depth: Float64Array, focal: number): Stances[] {
   return SOLES.map(({ joint, landmark, still }) => {
-    const stands = new Uint8Array(series.frames);
+    const stands = new Array<boolean>(series.frames).fill(false);
     for (const one of still)
       for (const { first, last } of slowIntervals(speedOf(raysOf(series, one, focal), depth)))
-        stands.fill(1, first, last + 1);
-    return { joint, landmark, intervals: runs(stands) };
+        stands.fill(true, first, last + 1);
+    const intervals = runsOf(stands).map(({ from, to }) => ({ first: from, last: to - 1 }));
+    return { joint, landmark, intervals };
   });
 }
 
@@ -71,18 +72,6 @@ function speedOf({ x, y }: Rays, depth: Float64Array): Float64Array {
     const [a, b] = [Math.max(0, t - 1), Math.min(depth.length - 1, t + 1)];
     return (metres * Math.hypot(x[b]! - x[a]!, y[b]! - y[a]!) * FPS) / Math.max(1, b - a);
   });
-}
-
-/** The intervals of a column in which it is 1. */
-function runs(column: Uint8Array): ContactInterval[] {
-  const intervals: ContactInterval[] = [];
-  for (let first = column.indexOf(1); first >= 0; first = column.indexOf(1, first)) {
-    const end = column.indexOf(0, first);
-    intervals.push({ first, last: (end < 0 ? column.length : end) - 1 });
-    if (end < 0) break;
-    first = end;
-  }
-  return intervals;
 }
 
 function slowIntervals(speed: Float64Array): ContactInterval[] {
