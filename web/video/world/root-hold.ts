@@ -3,7 +3,7 @@ import { lockFeet } from '../../motion/contact/foot-lock';
 import { contactWeights, leastSquaresShift } from '../../motion/contact/least-squares-shift';
 import { addEvenness, solvePentadiagonal } from '../../motion/math/pentadiagonal';
 import { percentile } from '../../motion/math/statistics';
-import { shiftedLevel, type SolvedMotion } from '../../motion/skeleton/clip';
+import { lowered, shiftedLevel, type SolvedMotion } from '../../motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Stances } from './stance';
 
@@ -60,10 +60,5 @@ function onGround(motion: SolvedMotion, stances: readonly Stances[]): SolvedMoti
       }
   });
   addEvenness(diagonal, next, second, EVEN_WEIGHT);
-  const floor = solvePentadiagonal(diagonal, next, second, right);
-  const lowered = (points: Float32Array): Float32Array => {
-    const row = points.length / frames;
-    return points.map((value, i) => (i % 3 === 1 ? value - floor[Math.floor(i / row)]! : value));
-  };
-  return { ...motion, root: lowered(motion.root), positions: lowered(motion.positions) };
+  return lowered(motion, solvePentadiagonal(diagonal, next, second, right));
 }
