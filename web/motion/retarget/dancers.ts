@@ -1,4 +1,4 @@
-import { mapJoints } from './joint-map';
+import { ancestors, mapJoints } from './joint-map';
 import { worldPose } from './sample';
 import type { LocalPoses, MotionSource, SourceJoint } from './source';
 import { distance, type Vec3 } from '../math/vec3';
@@ -8,13 +8,6 @@ function below(children: readonly (readonly number[])[], top: number): number[] 
   const inside = [top];
   for (const joint of inside) for (const child of children[joint]!) inside.push(child);
   return inside.sort((a, b) => a - b);
-}
-
-/** The joints above a joint, the nearest first. */
-function above(joints: readonly SourceJoint[], joint: number): number[] {
-  const chain: number[] = [];
-  for (let at = joints[joint]!.parent; at >= 0; at = joints[at]!.parent) chain.push(at);
-  return chain;
 }
 
 /** The source with only some joints; a kept joint's ancestors are kept too. */
@@ -108,7 +101,7 @@ export function pickDancer(
   const chosen = dancers[part] ?? dancers[0];
   if (chosen === undefined) return source;
   const parts = dancers.map(({ top }) => source.joints[top]!.name);
-  const kept = [...above(source.joints, chosen.top).reverse(), ...chosen.joints];
+  const kept = [...ancestors(source.joints, chosen.top).reverse(), ...chosen.joints];
   return { ...withJoints(source, kept), parts, part: dancers.indexOf(chosen) };
 }
 

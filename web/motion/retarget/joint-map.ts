@@ -28,7 +28,8 @@ export interface JointMap {
   readonly spine: readonly number[];
 }
 
-function ancestors(nodes: readonly SourceJoint[], node: number): number[] {
+/** The joints above a joint, the nearest first. */
+export function ancestors(nodes: readonly SourceJoint[], node: number): number[] {
   const chain: number[] = [];
   for (let at = nodes[node]!.parent; at >= 0; at = nodes[at]!.parent) chain.push(at);
   return chain;
