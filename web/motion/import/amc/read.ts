@@ -75,15 +75,6 @@ function rotationOf(bone: Bone, value: (channel: string) => number, radians: num
   return multiply(multiply(bone.axes, own), conjugate(bone.axes));
 }
 
-/** The file whose text has a mark. */
-function fileWith(files: readonly FileBytes[], mark: RegExp): string | null {
-  for (const { bytes } of files) {
-    const text = new TextDecoder().decode(bytes);
-    if (mark.test(text)) return text;
-  }
-  return null;
-}
-
 /**
  * Reads an AMC motion with its ASF skeleton.
  *
@@ -91,13 +82,12 @@ function fileWith(files: readonly FileBytes[], mark: RegExp): string | null {
  * @throws {AppError} `missing-file`, `unreadable-file`, `missing-joints`, `too-few-frames` or `too-long`
  */
 export function readAmc(files: readonly FileBytes[]): MotionSource {
-  const skeleton = fileWith(files, /^:bonedata\b/im);
-  const motion = fileWith(
-    files.filter(({ bytes }) => !/^:bonedata\b/im.test(new TextDecoder().decode(bytes))),
-    /^\s*\d+\s*$/m,
-  );
-  if (skeleton === null || motion === null) {
-    const [have, lack] = skeleton === null ? ['AMC', 'ASF'] : ['ASF', 'AMC'];
+  const texts = files.map(({ bytes }) => new TextDecoder().decode(bytes));
+  const isSkeleton = (text: string): boolean => /^:bonedata\b/im.test(text);
+  const skeleton = texts.find(isSkeleton);
+  const motion = texts.find((text) => !isSkeleton(text) && /^\s*\d+\s*$/m.test(text));
+  if (skeleton === undefined || motion === undefined) {
+    const [have, lack] = skeleton === undefined ? ['AMC', 'ASF'] : ['ASF', 'AMC'];
     throw new AppError(
       'missing-file',
       `The ${lack} file is missing: ${have === 'AMC' ? 'an AMC holds angles without a skeleton' : 'an ASF holds a skeleton without a motion'}.`,
