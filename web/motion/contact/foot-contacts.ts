@@ -1,6 +1,6 @@
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { FEET, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
-import { percentile } from '../math/statistics';
+import { percentile, runsBelow } from '../math/statistics';
 
 /** Heights of one joint and its speeds. */
 interface JointTrack {
@@ -99,26 +99,15 @@ export interface ContactInterval {
  * @param joint index in the skeleton
  */
 export function contactIntervals(motion: SolvedMotion, joint: number): ContactInterval[] {
-  const { frames, fps, offsets } = motion;
+  const { fps, offsets } = motion;
   const { heights, vertical, horizontal } = jointTrack(motion, joint);
-  const speeds = horizontal.map((speed, frame) => (vertical[frame]! < VERTICAL_SPEED ? speed : Infinity));
   const toe = PARENTS.indexOf(joint);
   const maxHeight = MAX_TOE_HEIGHT - (toe < 0 ? 0 : offsets[toe * 3 + 1]!);
-
-  const intervals: ContactInterval[] = [];
-  let first = 0;
-  let slowest = Infinity;
-  for (let frame = 0; frame < frames; frame++) {
-    const low = frame + 1 < frames && Math.max(heights[frame]!, heights[frame + 1]!) < maxHeight;
-    const speed = low ? speeds[frame]! : Infinity;
-    if (speed < RELEASE_SPEED) {
-      slowest = Math.min(slowest, speed);
-      continue;
-    }
-    if (slowest < CONTACT_SPEED && frame - first >= MIN_DURATION * fps)
-      intervals.push({ first, last: frame });
-    first = frame + 1;
-    slowest = Infinity;
-  }
-  return intervals;
+  const speeds = horizontal.map((speed, frame) => {
+    const low = Math.max(heights[frame]!, heights[frame + 1]!) < maxHeight;
+    return low && vertical[frame]! < VERTICAL_SPEED ? speed : Infinity;
+  });
+  return runsBelow(speeds, CONTACT_SPEED, RELEASE_SPEED)
+    .filter(({ from, to }) => to - from >= MIN_DURATION * fps)
+    .map(({ from, to }) => ({ first: from, last: to }));
 }

@@ -113,3 +113,9 @@ export function runsOf(flags: readonly boolean[], pause = 1): Run[] {
   });
   return runs;
 }
+
+/** The runs in which values are below `high` and somewhere below `low`: hysteresis thresholding, as in Canny 1986. */
+export function runsBelow(values: Float64Array, low: number, high: number): Run[] {
+  const runs = runsOf(Array.from(values, (value) => value < high));
+  return runs.filter(({ from, to }) => values.subarray(from, to).some((value) => value < low));
+}

@@ -1,6 +1,6 @@
 import { FPS } from '../../motion/skeleton/clip';
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
-import { gaussianFilter, runsOf } from '../../motion/math/statistics';
+import { gaussianFilter, runsBelow, runsOf } from '../../motion/math/statistics';
 import { J } from '../../motion/skeleton/skeleton';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { L } from '../pose/landmark-names';
@@ -59,8 +59,8 @@ export function stancesOf(series: Series, depth: Float64Array, focal: number): S
   return SOLES.map(({ joint, landmark, still }) => {
     const stands = new Array<boolean>(series.frames).fill(false);
     for (const one of still)
-      for (const { first, last } of slowIntervals(speedOf(raysOf(series, one, focal), depth)))
-        stands.fill(true, first, last + 1);
+      for (const { from, to } of runsBelow(speedOf(raysOf(series, one, focal), depth), STILL, MOVING))
+        if (to - 1 - from >= MIN_DURATION * FPS) stands.fill(true, from, to);
     const intervals = runsOf(stands).map(({ from, to }) => ({ first: from, last: to - 1 }));
     return { joint, landmark, intervals };
   });
@@ -72,22 +72,4 @@ function speedOf({ x, y }: Rays, depth: Float64Array): Float64Array {
     const [a, b] = [Math.max(0, t - 1), Math.min(depth.length - 1, t + 1)];
     return (metres * Math.hypot(x[b]! - x[a]!, y[b]! - y[a]!) * FPS) / Math.max(1, b - a);
   });
-}
-
-function slowIntervals(speed: Float64Array): ContactInterval[] {
-  const intervals: ContactInterval[] = [];
-  let first = 0;
-  let slowest = Infinity;
-  for (let t = 0; t <= speed.length; t++) {
-    const now = speed[t] ?? Infinity;
-    if (now < MOVING) {
-      slowest = Math.min(slowest, now);
-      continue;
-    }
-    const last = t - 1;
-    if (slowest < STILL && last - first >= MIN_DURATION * FPS) intervals.push({ first, last });
-    first = t + 1;
-    slowest = Infinity;
-  }
-  return intervals;
 }
