@@ -114,31 +114,9 @@ def reactor_generator(
 ) -> ReactorGenerator:
     """A model as evaluation asks it. at_every_step: with the paper's form of guidance, under PyTorch alone."""
 
-    def generate(
-        leader: np.ndarray,
-        music: np.ndarray | None,
-        seed: int,
-        condition_leader: np.ndarray | None = None,
-        guidance: tuple[float, float] | None = None,
-        music_guidance: float | None = None,
-        variety: float | None = None,
-        role: float = 0.0,
-    ) -> np.ndarray:
-        return react(
-            model,
-            Request(
-                leader,
-                music,
-                seed,
-                steps=steps,
-                guidance=guidance,
-                music_guidance=music_guidance,
-                variety=variety,
-                role=role,
-                condition_leader=condition_leader,
-                at_every_step=at_every_step,
-            ),
-        )
+    def generate(leader: np.ndarray, music: np.ndarray | None, seed: int, **controls: Any) -> np.ndarray:
+        request = Request(leader, music, seed, steps=steps, at_every_step=at_every_step, **controls)
+        return react(model, request)
 
     return generate
 

@@ -25,6 +25,7 @@ class ReactorGenerator(Protocol):
         leader: np.ndarray,
         music: np.ndarray | None,
         seed: int,
+        *,
         condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
         music_guidance: float | None = None,
