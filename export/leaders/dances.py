@@ -2,20 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from export.leaders import half_tempo, play, salsa
 from export.leaders.steps import Dance
 
-DANCES: dict[str, Callable[[Dance], None]] = {}
 
-
-def dance(tell: Callable[[Dance], None]) -> Callable[[Dance], None]:
-    DANCES[tell.__name__] = tell
-    return tell
-
-
-@dance
 def slow(dance: Dance) -> None:
     half_tempo.basic(dance, 1)
     half_tempo.basic(dance, -1)
@@ -29,7 +19,6 @@ def slow(dance: Dance) -> None:
     half_tempo.box(dance)
 
 
-@dance
 def quick(dance: Dance) -> None:
     salsa.basic(dance)
     salsa.side_basic(dance)
@@ -43,7 +32,6 @@ def quick(dance: Dance) -> None:
     salsa.basic(dance, 0.34)
 
 
-@dance
 def turning(dance: Dance) -> None:
     salsa.basic(dance)
     salsa.spot_turn(dance)
@@ -57,7 +45,6 @@ def turning(dance: Dance) -> None:
     salsa.spot_turn(dance)
 
 
-@dance
 def playful(dance: Dance) -> None:
     play.kicks(dance)
     play.charleston(dance)
@@ -69,3 +56,6 @@ def playful(dance: Dance) -> None:
     play.kicks(dance)
     play.shimmies(dance)
     play.hops(dance)
+
+
+DANCES = {tell.__name__: tell for tell in (slow, quick, turning, playful)}
