@@ -131,36 +131,6 @@ class ResidualVectorQuantiser(nn.Module):
         return self._commitment
 
 
-class KlBottleneck(nn.Module):
-    """No quantiser: one Gaussian layer with a KL term (the paper's VAE row)."""
-
-    def __init__(self, config: HfsqConfig) -> None:
-        super().__init__()
-        if config.layers != 1:
-            raise ValueError(f"the KL bottleneck has a single layer, config asks for {config.layers}")
-        self.layers = 1
-        self.width = self.latent_width = config.groups * config.group_width
-        self.to_moments = nn.Linear(self.width, 2 * self.width)
-        self.weight = config.weight_kl
-        self._kl: Tensor | float = 0.0
-
-    def forward(self, v: Tensor) -> Tensor:
-        mean, log_variance = self.to_moments(v).chunk(2, dim=-1)
-        log_variance = log_variance.clamp(-12, 6)
-        self._kl = 0.5 * (mean.square() + log_variance.exp() - 1 - log_variance).mean()
-        sample = mean + torch.randn_like(mean) * (0.5 * log_variance).exp() if self.training else mean
-        return sample[:, :, None]
-
-    def combine(self, codes: Tensor) -> Tensor:
-        return codes[:, :, 0]
-
-    def range(self) -> tuple[Tensor, Tensor]:
-        return _unlimited(self.latent_width)
-
-    def penalty(self) -> Tensor | float:
-        return self.weight * self._kl
-
-
 class Unquantised(nn.Module):
     """Features as they are, in one layer: for the no-latent baseline."""
 
@@ -180,6 +150,28 @@ class Unquantised(nn.Module):
 
     def penalty(self) -> Tensor | float:
         return 0.0
+
+
+class KlBottleneck(Unquantised):
+    """One Gaussian layer with a KL term (the paper's VAE row)."""
+
+    def __init__(self, config: HfsqConfig) -> None:
+        if config.layers != 1:
+            raise ValueError(f"the KL bottleneck has a single layer, config asks for {config.layers}")
+        super().__init__(config.groups * config.group_width)
+        self.to_moments = nn.Linear(self.width, 2 * self.width)
+        self.weight = config.weight_kl
+        self._kl: Tensor | float = 0.0
+
+    def forward(self, v: Tensor) -> Tensor:
+        mean, log_variance = self.to_moments(v).chunk(2, dim=-1)
+        log_variance = log_variance.clamp(-12, 6)
+        self._kl = 0.5 * (mean.square() + log_variance.exp() - 1 - log_variance).mean()
+        sample = mean + torch.randn_like(mean) * (0.5 * log_variance).exp() if self.training else mean
+        return sample[:, :, None]
+
+    def penalty(self) -> Tensor | float:
+        return self.weight * self._kl
 
 
 Quantiser = Hfsq | ResidualVectorQuantiser | KlBottleneck | Unquantised
