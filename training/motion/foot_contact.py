@@ -16,14 +16,14 @@ HEIGHT = 0.03  # metres above that
 VERTICAL_SPEED = 0.1  # m/s, a planted foot is slower
 
 
-def contacts(motion: np.ndarray, fps: float = FPS) -> tuple[np.ndarray, np.ndarray]:
+def contacts(motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Contact (T-1, 4) bool and horizontal speed (T-1, 4) m/s of both ankles and feet of (T, 22, 3), y up.
 
     Measured against each joint's own 5th percentile of height, so neither the floor nor the foot's
     thickness matters.
     """
     feet = motion[:, list(FEET)].astype(np.float64)
-    velocity = np.diff(feet, axis=0) * fps
+    velocity = np.diff(feet, axis=0) * FPS
     low = feet[:-1, :, 1] < np.percentile(feet[:, :, 1], PERCENTILE, axis=0) + HEIGHT
     planted = low & (np.abs(velocity[..., 1]) < VERTICAL_SPEED)
     return planted, np.linalg.norm(velocity[..., [0, 2]], axis=-1)

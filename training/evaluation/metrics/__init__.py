@@ -8,15 +8,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from training.config import FPS
 from training.evaluation.metrics.distance import root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error, root_error_per_frame
 from training.evaluation.metrics.speed import joint_speed
 
 
-def quick_report(
-    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, fps: float = FPS
-) -> dict[str, float]:
+def quick_report(leader: np.ndarray, truth: np.ndarray, generated: np.ndarray) -> dict[str, float]:
     """The numbers that select a model while it trains; all motions (T, 22, 3) metres.
 
     mpjpe_mm, root_error_mm and root_error_median_mm are errors in mm; the median over frames is not affected by
@@ -27,7 +24,7 @@ def quick_report(
         "mpjpe_mm": mpjpe(truth, generated),
         "root_error_mm": root_error(leader, truth, generated),
         "root_error_median_mm": float(np.median(root_error_per_frame(leader, truth, generated)) * 1000),
-        "speed_ratio": joint_speed(generated, fps) / joint_speed(truth, fps),
+        "speed_ratio": joint_speed(generated) / joint_speed(truth),
         "distance_ratio": float(
             np.median(root_distance(leader, generated)) / np.median(root_distance(leader, truth))
         ),

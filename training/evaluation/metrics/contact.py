@@ -14,13 +14,13 @@ SLIDE_SPEED = 0.2  # m/s, a foot in contact that is faster skates
 UP, HORIZONTAL = 1, [0, 2]
 
 
-def foot_skating(motion: np.ndarray, fps: float = FPS) -> dict[str, float]:
+def foot_skating(motion: np.ndarray) -> dict[str, float]:
     """Of a motion (T, 22, 3) metres, over the samples of both ankles and feet: contact_share, those in contact;
     skate_share, of these those that move faster than 0.2 m/s; slide_speed, the mean speed of these, m/s.
 
     Without any contact skate_share and slide_speed are NaN.
     """
-    planted, speed = contacts(motion, fps)
+    planted, speed = contacts(motion)
     sliding = speed[planted]
     return {
         "skate_share": float((sliding > SLIDE_SPEED).mean()) if len(sliding) else float("nan"),

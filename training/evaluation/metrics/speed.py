@@ -13,19 +13,17 @@ from training.config import FPS
 BANDS: tuple[tuple[float, float], ...] = ((0.0, 1.0), (1.0, 3.0), (3.0, 6.0), (6.0, 15.0))
 
 
-def joint_speed(motion: np.ndarray, fps: float = FPS) -> float:
+def joint_speed(motion: np.ndarray) -> float:
     """Mean speed of all joints in the world, m/s."""
-    return float(np.linalg.norm(np.diff(motion, axis=0), axis=-1).mean() * fps)
+    return float(np.linalg.norm(np.diff(motion, axis=0), axis=-1).mean() * FPS)
 
 
-def joint_acceleration(motion: np.ndarray, fps: float = FPS) -> float:
+def joint_acceleration(motion: np.ndarray) -> float:
     """Mean size of the second difference of all joints in the world, m/s^2."""
-    return float(np.linalg.norm(np.diff(motion, n=2, axis=0), axis=-1).mean() * fps**2)
+    return float(np.linalg.norm(np.diff(motion, n=2, axis=0), axis=-1).mean() * FPS**2)
 
 
-def band_power(
-    motion: np.ndarray, bands: tuple[tuple[float, float], ...] = BANDS, fps: float = FPS
-) -> np.ndarray:
+def band_power(motion: np.ndarray, bands: tuple[tuple[float, float], ...] = BANDS) -> np.ndarray:
     """Mean power of the joint velocities in each band, (len(bands),) in (m/s)^2.
 
     Whole-clip periodogram of the velocities under a Hann window, averaged over joints and summed over x, y,
@@ -33,12 +31,12 @@ def band_power(
     clip that ends faster than it began would leak its slow motion into the quick bands. Summed over all
     bands it is the mean squared speed, as the window weighs it.
     """
-    velocity = np.diff(motion, axis=0) * fps
+    velocity = np.diff(motion, axis=0) * FPS
     frames = len(velocity)
     window = np.hanning(frames + 2)[1:-1, None, None]
     spectrum = np.abs(np.fft.rfft(velocity * window, axis=0)) ** 2 / (frames * (window**2).sum())
-    frequency = np.fft.rfftfreq(frames, 1 / fps)
-    twice = np.where((frequency > 0) & (frequency < fps / 2), 2.0, 1.0)  # the negative frequencies
+    frequency = np.fft.rfftfreq(frames, 1 / FPS)
+    twice = np.where((frequency > 0) & (frequency < FPS / 2), 2.0, 1.0)  # the negative frequencies
     power = twice * spectrum.sum(axis=2).mean(axis=1)
     last = len(bands) - 1
     return np.array(

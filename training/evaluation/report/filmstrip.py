@@ -129,7 +129,6 @@ def filmstrip(
     reactor: np.ndarray,
     path: Path | str,
     truth: np.ndarray | None = None,
-    fps: float = FPS,
     poses: int = 12,
     start: float = 0.0,
     seconds: float = 8.0,
@@ -141,8 +140,8 @@ def filmstrip(
     front, side and top, each moment centred on the middle of the couple. Times and the distance of the
     roots stand below. Raises ValueError where less than two frames of the motion are asked for.
     """
-    first = round(start * fps)
-    last = min(round((start + seconds) * fps), len(leader) - 1)
+    first = round(start * FPS)
+    last = min(round((start + seconds) * FPS), len(leader) - 1)
     if not 0 <= first < last:
         raise ValueError(
             f"nothing to show between {start:g} s and {start + seconds:g} s of {len(leader)} frames"
@@ -184,7 +183,7 @@ def filmstrip(
                 axes.axvline(cell * i, color=RULE, linewidth=0.6, zorder=0)
     for i, frame in enumerate(frames):
         apart = np.linalg.norm(bodies[1][i, 0] - bodies[0][i, 0])
-        rows[2].text(cell * (i + 0.5), -top_height / 2, f"{frame / fps:.2f} s   {apart:.2f} m", color=INK,
+        rows[2].text(cell * (i + 0.5), -top_height / 2, f"{frame / FPS:.2f} s   {apart:.2f} m", color=INK,
                      fontsize=8, ha="center", va="top")  # fmt: skip
     named = [("leader", LEADER), ("reactor", REACTOR)] + (
         [("true reactor", TRUTH)] if truth is not None else []

@@ -24,17 +24,17 @@ LINES: dict[str, tuple[str, str]] = {
 }
 
 
-def spectrum(motion: np.ndarray, edges: np.ndarray = EDGES_HZ, fps: float = FPS) -> np.ndarray:
+def spectrum(motion: np.ndarray, edges: np.ndarray = EDGES_HZ) -> np.ndarray:
     """Power density of the joint velocities of (T, J, 3) metres between each two edges (Hz), (m/s)^2 per Hz.
 
     One periodogram of the whole clip under a Hann window, summed over x, y, z and averaged over joints and the
     bin's frequencies; NaN in bins narrower than the clip can tell apart.
     """
-    velocity = np.diff(motion.astype(np.float64), axis=0) * fps
+    velocity = np.diff(motion.astype(np.float64), axis=0) * FPS
     window = np.hanning(len(velocity))
     power = np.abs(np.fft.rfft(velocity * window[:, None, None], axis=0)) ** 2
-    density = 2 * power.sum(axis=2).mean(axis=1) / (fps * (window**2).sum())
-    bins = np.digitize(np.fft.rfftfreq(len(velocity), 1 / fps), edges) - 1
+    density = 2 * power.sum(axis=2).mean(axis=1) / (FPS * (window**2).sum())
+    bins = np.digitize(np.fft.rfftfreq(len(velocity), 1 / FPS), edges) - 1
     bins[bins == len(edges) - 1] = -1  # above the last edge
     inside = bins >= 0
     count = np.bincount(bins[inside], minlength=len(edges) - 1)

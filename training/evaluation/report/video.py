@@ -119,9 +119,7 @@ def _draw_couple(
                 draw.circle(point, width / 2, fill=colour)
 
 
-def pictures(
-    leader: np.ndarray, reactors: Mapping[str, np.ndarray], fps: float = FPS
-) -> Iterator[Image.Image]:
+def pictures(leader: np.ndarray, reactors: Mapping[str, np.ndarray]) -> Iterator[Image.Image]:
     """One RGB picture for every frame: a column for each reactor under its name, front above, side below."""
     lengths = [len(leader), *(len(reactor) for reactor in reactors.values())]
     if len(lengths) < 2 or min(lengths) != max(lengths) or not lengths[0]:
@@ -146,11 +144,11 @@ def pictures(
                 caption.line(
                     [(column * CELL_PIXELS[0], CAPTION_PIXELS), (column * CELL_PIXELS[0], size[1])], fill=RULE
                 )
-        caption.text((size[0] - 8, 16), f"{frame / fps:.1f} s", fill=INK, font=font, anchor="rm")
+        caption.text((size[0] - 8, 16), f"{frame / FPS:.1f} s", fill=INK, font=font, anchor="rm")
         yield picture
 
 
-def write_video(leader: np.ndarray, reactors: Mapping[str, np.ndarray], path: Path, fps: float = FPS) -> Path:
+def write_video(leader: np.ndarray, reactors: Mapping[str, np.ndarray], path: Path) -> Path:
     """Write the WebM of a leader and its reactors by name, (T, 22, 3) metres each; returns its path."""
-    path.write_bytes(webm(pictures(leader, reactors, fps), fps))
+    path.write_bytes(webm(pictures(leader, reactors)))
     return path

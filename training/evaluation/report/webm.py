@@ -44,26 +44,26 @@ def _unsigned(name: int, value: int) -> bytes:
     return _element(name, struct.pack(">Q", value))
 
 
-def _milliseconds(frame: int, fps: float) -> int:
-    return round(frame * 1000 / fps)
+def _milliseconds(frame: int) -> int:
+    return round(frame * 1000 / FPS)
 
 
-def _cluster(frames: Sequence[bytes], first: int, fps: float) -> bytes:
+def _cluster(frames: Sequence[bytes], first: int) -> bytes:
     """Frames from number `first` on; each says how many ms after the cluster's time it is shown."""
-    start = _milliseconds(first, fps)
+    start = _milliseconds(first)
     blocks = [_unsigned(0xE7, start)]
     for number, frame in enumerate(frames, first):
-        head = struct.pack(">BhB", 0x81, _milliseconds(number, fps) - start, 0x80)  # track 1, time, key frame
+        head = struct.pack(">BhB", 0x81, _milliseconds(number) - start, 0x80)  # track 1, time, key frame
         blocks.append(_element(0xA3, head + frame))
     return _element(0x1F43B675, b"".join(blocks))
 
 
-def _cues(positions: Sequence[int], fps: float) -> bytes:
+def _cues(positions: Sequence[int]) -> bytes:
     """Where in the segment each cluster begins, bytes."""
     points = [
         _element(
             0xBB,
-            _unsigned(0xB3, _milliseconds(index * CLUSTER_FRAMES, fps))
+            _unsigned(0xB3, _milliseconds(index * CLUSTER_FRAMES))
             + _element(0xB7, _unsigned(0xF7, 1) + _unsigned(0xF1, position)),
         )
         for index, position in enumerate(positions)
@@ -71,7 +71,7 @@ def _cues(positions: Sequence[int], fps: float) -> bytes:
     return _element(0x1C53BB6B, b"".join(points))
 
 
-def webm(pictures: Iterable[Image.Image], fps: float = FPS) -> bytes:
+def webm(pictures: Iterable[Image.Image]) -> bytes:
     """The file's bytes for RGB pictures of one size. Raises ValueError without pictures or with another size."""
     frames: list[bytes] = []
     sizes: set[tuple[int, int]] = set()
@@ -89,18 +89,16 @@ def webm(pictures: Iterable[Image.Image], fps: float = FPS) -> bytes:
     info = _element(
         0x1549A966,
         _unsigned(0x2AD7B1, _MILLISECOND_NS) + _element(0x4D80, b"reactdance") + _element(0x5741, b"reactdance")
-        + _element(0x4489, struct.pack(">d", len(frames) * 1000 / fps)),
+        + _element(0x4489, struct.pack(">d", len(frames) * 1000 / FPS)),
     )  # fmt: skip
     track = _element(
         0xAE,
         _unsigned(0xD7, 1) + _unsigned(0x73C5, 1) + _unsigned(0x83, 1) + _unsigned(0x9C, 0) + _element(0x86, b"V_VP8")
-        + _unsigned(0x23E383, round(1e9 / fps)) + _element(0xE0, _unsigned(0xB0, width) + _unsigned(0xBA, height)),
+        + _unsigned(0x23E383, round(1e9 / FPS)) + _element(0xE0, _unsigned(0xB0, width) + _unsigned(0xBA, height)),
     )  # fmt: skip
     head = info + _element(0x1654AE6B, track)
-    clusters = [
-        _cluster(frames[i : i + CLUSTER_FRAMES], i, fps) for i in range(0, len(frames), CLUSTER_FRAMES)
-    ]
+    clusters = [_cluster(frames[i : i + CLUSTER_FRAMES], i) for i in range(0, len(frames), CLUSTER_FRAMES)]
     # The seek table stands before the clusters; numbers have a fixed width, so its own length is known.
-    begin = len(head) + len(_cues([0] * len(clusters), fps))
+    begin = len(head) + len(_cues([0] * len(clusters)))
     positions = [begin + sum(map(len, clusters[:i])) for i in range(len(clusters))]
-    return header + _element(0x18538067, head + _cues(positions, fps) + b"".join(clusters))
+    return header + _element(0x18538067, head + _cues(positions) + b"".join(clusters))

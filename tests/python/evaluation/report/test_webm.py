@@ -31,7 +31,7 @@ def plain(tone: int, size: tuple[int, int] = (48, 32)) -> Image.Image:
 
 
 def test_every_frame_is_there_at_its_time():
-    data = webm((plain(tone * 3) for tone in range(70)), fps=30.0)
+    data = webm(plain(tone * 3) for tone in range(70))
     assert data[:4] == bytes.fromhex("1a45dfa3")
     read = frames(data)
     assert [time for time, _ in read] == [round(i * 1000 / 30) for i in range(70)]
