@@ -7,7 +7,6 @@ import pytest
 
 from tests.python.support.bodies import swinging_body
 from training.evaluation.metrics.response import (
-    beat_period,
     beat_phase,
     between_seeds,
     half_beat_later,
@@ -60,7 +59,6 @@ def test_seeds_apart():
 
 def test_half_a_beat_later():
     music = music_with(np.arange(5, 300, 20), 300)
-    assert beat_period(music) == 20
     later = half_beat_later(music)
     assert list(np.flatnonzero(later[:, 53])) == list(range(15, 300, 20))
     assert later[10:, 0] == pytest.approx(music[:-10, 0])
