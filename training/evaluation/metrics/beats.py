@@ -66,7 +66,7 @@ def bed(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
     }
 
 
-def bas(music: np.ndarray, reactor: np.ndarray, resamples: int = 1000, seed: int = 0) -> dict[str, float]:
+def bas(music: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
     """Beat alignment score of a reactor (T, J, 3) to music beats (K,) frames: value, chance level, and the limits
     low and high of the 95 % bootstrap interval over the beats. All NaN without a music beat.
     """
@@ -74,8 +74,8 @@ def bas(music: np.ndarray, reactor: np.ndarray, resamples: int = 1000, seed: int
     scores = beat_scores(music, beats)
     if len(scores) == 0:
         return {"value": float("nan"), "chance": float("nan"), "low": float("nan"), "high": float("nan")}
-    random = np.random.default_rng(seed)
-    means = scores[random.integers(len(scores), size=(resamples, len(scores)))].mean(axis=1)
+    resamples = np.random.default_rng(0).integers(len(scores), size=(1000, len(scores)))
+    means = scores[resamples].mean(axis=1)
     low, high = np.percentile(means, [2.5, 97.5])
     chance = chance_alignment(music, beats, len(reactor))
     return {"value": float(scores.mean()), "chance": chance, "low": float(low), "high": float(high)}

@@ -88,13 +88,15 @@ def duet_metrics(
     return row
 
 
-def _features(
-    couples: Sequence[tuple[np.ndarray, np.ndarray]], length: int, hop: int, mode: Mode
-) -> dict[str, np.ndarray]:
+def _clips(motion: np.ndarray) -> list[np.ndarray]:
+    return clips(motion, CLIP_FRAMES, HOP_FRAMES)
+
+
+def _features(couples: Sequence[tuple[np.ndarray, np.ndarray]], mode: Mode) -> dict[str, np.ndarray]:
     """Feature vectors of all clips of all couples (leader, reactor), one row per clip."""
     kinetic, geometric, cross = [], [], []
     for leader, reactor in couples:
-        for lead, react in zip(clips(leader, length, hop), clips(reactor, length, hop), strict=True):
+        for lead, react in zip(_clips(leader), _clips(reactor), strict=True):
             kinetic.append(kinetic_features(react, mode))
             geometric.append(geometric_features(react, mode))
             cross.append(cross_distances(lead, react))
@@ -105,34 +107,29 @@ def set_metrics(
     truth: Sequence[tuple[np.ndarray, np.ndarray]],
     made: Sequence[tuple[np.ndarray, np.ndarray]],
     mode: Mode,
-    length: int = CLIP_FRAMES,
-    hop: int = HOP_FRAMES,
     resamples: int = 100,
 ) -> dict[str, Interval]:
     """FID and Div of couples (leader, reactor), (T, 22, 3) metres each, against the true couples: fid_k, fid_g,
     fid_cd, div_k, div_g, div_cd of kinetic (k), geometric (g) and cross-distance (cd) features of clips of
-    `length` frames, one every `hop` frames.
+    `CLIP_FRAMES`, one every `HOP_FRAMES`.
 
     `mode` says how k and g are computed (see `modes`); cd is the same in both.
     """
-    real, fake = _features(truth, length, hop, mode), _features(made, length, hop, mode)
+    real, fake = _features(truth, mode), _features(made, mode)
     result = {f"fid_{name}": fid(real[name], fake[name], mode, resamples) for name in real}
     return result | {f"div_{name}": div(real[name], fake[name], mode, resamples) for name in real}
 
 
 def fid_of_other_dances(
-    truth: Sequence[tuple[np.ndarray, np.ndarray]],
-    others: Sequence[tuple[np.ndarray, np.ndarray]],
-    length: int = CLIP_FRAMES,
-    hop: int = HOP_FRAMES,
+    truth: Sequence[tuple[np.ndarray, np.ndarray]], others: Sequence[tuple[np.ndarray, np.ndarray]]
 ) -> dict[str, Interval]:
     """fid_k, fid_g and fid_cd, `corrected`, between true couples (leader, reactor), (T, 22, 3) metres each, and other
     true couples, see `fid_of_others`: what to read the FID of a generated reactor against.
     """
-    real, other = (_features(couples, length, hop, "corrected") for couples in (truth, others))
+    real, other = (_features(couples, "corrected") for couples in (truth, others))
     return {f"fid_{name}": fid_of_others(real[name], other[name]) for name in real}
 
 
-def clip_count(motions: Sequence[np.ndarray], length: int = CLIP_FRAMES, hop: int = HOP_FRAMES) -> int:
+def clip_count(motions: Sequence[np.ndarray]) -> int:
     """How many clips `set_metrics` makes of the motions."""
-    return sum(len(clips(motion, length, hop)) for motion in motions)
+    return sum(len(_clips(motion)) for motion in motions)

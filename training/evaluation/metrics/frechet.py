@@ -85,9 +85,7 @@ def _distances(features: np.ndarray) -> np.ndarray:
     return np.sqrt(np.maximum(square[:, None] + square[None] - 2 * features @ features.T, 0.0))
 
 
-def fid(
-    truth: np.ndarray, generated: np.ndarray, mode: Mode = "corrected", resamples: int = 200, seed: int = 0
-) -> Interval:
+def fid(truth: np.ndarray, generated: np.ndarray, mode: Mode = "corrected", resamples: int = 200) -> Interval:
     """FID of generated (M, D) against true features (N, D), with a bootstrap over the clips of both.
 
     Rows of the two sets at the same index are the same stretch of dance when M = N and are then drawn
@@ -96,7 +94,7 @@ def fid(
     """
     first, second = normalise(truth, generated, mode=mode)
     value = frechet(first, second, mode)
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(0)
     draws = []
     for _ in range(resamples):
         rows = random.integers(len(first), size=len(first))
@@ -106,29 +104,27 @@ def fid(
     return Interval(value, float(low), float(high))
 
 
-def fid_of_others(truth: np.ndarray, others: np.ndarray, draws: int = 100, seed: int = 0) -> Interval:
+def fid_of_others(truth: np.ndarray, others: np.ndarray, draws: int = 100) -> Interval:
     """FID between features (N, D) of true clips and as many of other true dances, drawn from (M, D): the median over
     draws, and the limits of 95 % of them. What a perfect copy has is 0, what other dances of the same dancers have is
     this.
     """
     first, second = normalise(truth, others)
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(0)
     count = min(len(first), len(second))
     values = [frechet(first, second[random.choice(len(second), count, replace=False)]) for _ in range(draws)]
     low, middle, high = np.percentile(values, [2.5, 50, 97.5])
     return Interval(float(middle), float(low), float(high))
 
 
-def div(
-    truth: np.ndarray, generated: np.ndarray, mode: Mode = "corrected", resamples: int = 200, seed: int = 0
-) -> Interval:
+def div(truth: np.ndarray, generated: np.ndarray, mode: Mode = "corrected", resamples: int = 200) -> Interval:
     """Diversity of generated (M, D) in the truth's normalisation, with a bootstrap over clips.
 
     Pairs of one clip with itself, which a resample has by chance, are left out of it.
     """
     features = normalise(truth, generated, mode=mode)[1]
     distances = _distances(features)
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(0)
     draws = []
     for _ in range(resamples):
         rows = random.integers(len(features), size=len(features))
