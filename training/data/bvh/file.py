@@ -16,28 +16,8 @@ _MAX_VALUE = 1e7
 FRAME_RATES = (5.0, 1000.0)
 """Least and greatest frames per second of a recording of a dance."""
 _USUAL_RATES = (
-    24,
-    25,
-    30,
-    48,
-    50,
-    60,
-    72,
-    75,
-    90,
-    100,
-    120,
-    144,
-    150,
-    180,
-    200,
-    240,
-    250,
-    300,
-    360,
-    480,
-    500,
-)
+    24, 25, 30, 48, 50, 60, 72, 75, 90, 100, 120, 144, 150, 180, 200, 240, 250, 300, 360, 480, 500
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -140,7 +120,7 @@ def parse_bvh(path: Path | str) -> BvhFile:
         if len(rows) * channels > _MAX_VALUES:
             raise ValueError(f"{len(rows)} frames of {channels} values; up to {_MAX_VALUES} values are read")
         whole = sum(len(row) == channels for row in rows)
-        if whole != frames or not frames:
+        if whole != frames:
             raise ValueError(f"expected {frames} frames of {channels} values, found {whole}")
         values = np.array(rows, dtype=np.float64)
         if not np.isfinite(values).all():
@@ -182,12 +162,10 @@ def _translations(node: Node, values: np.ndarray) -> np.ndarray:
 
 def _rotations(node: Node, values: np.ndarray) -> Rotation:
     """Local rotations over time: the node's rotation channels, in the order of the file."""
-    turning = [k for k, channel in enumerate(node.channels) if channel.endswith("rotation")]
-    if not turning:
-        return Rotation.identity(len(values))
     total = Rotation.identity(len(values))
-    for k in turning:
-        total = total * Rotation.from_euler(node.channels[k][0], values[:, k, None], degrees=True)
+    for k, channel in enumerate(node.channels):
+        if channel.endswith("rotation"):
+            total = total * Rotation.from_euler(channel[0], values[:, k, None], degrees=True)
     return total
 
 
