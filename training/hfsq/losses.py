@@ -8,7 +8,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from training.config import HfsqConfig
+from training.config import STREAMS, HfsqConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.masking import progressive_masking
 
@@ -48,9 +48,7 @@ def stage1_loss(
     weights = (config.weight_position, config.weight_velocity, config.weight_acceleration)
     parts: dict[str, Tensor] = {}
     total = motions[0].new_zeros(())
-    for name, stream, motion, low in zip(
-        ("upper", "lower", "placement"), model.each, motions, slow, strict=True
-    ):
+    for name, stream, motion, low in zip(STREAMS, model.each, motions, slow, strict=True):
         v = stream.features(motion)
         codes = stream.quantiser(v)
         combined = stream.quantiser.combine(codes)
