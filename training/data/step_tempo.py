@@ -41,31 +41,28 @@ class Plants:
     speed: np.ndarray
 
 
-def foot_speed(motion: np.ndarray, sigma: float = 1.5) -> np.ndarray:
-    """Speed (2, T) of the left and right foot (mean of ankle and toe) of a motion (T, 22, 3), m/s.
-
-    sigma: frames, of the Gaussian that smooths the positions before.
+def foot_speed(motion: np.ndarray) -> np.ndarray:
+    """Speed (2, T) of the left and right foot (mean of ankle and toe) of a motion (T, 22, 3), m/s, whose positions are
+    smoothed by a Gaussian of 1.5 frames.
     """
     rows = []
     for foot in (_LEFT, _RIGHT):
-        path = gaussian_filter1d(
-            motion[:, foot].mean(axis=1).astype(np.float64), sigma, axis=0, mode="nearest"
-        )
+        path = gaussian_filter1d(motion[:, foot].mean(axis=1).astype(np.float64), 1.5, axis=0, mode="nearest")
         rows.append(np.linalg.norm(np.gradient(path, axis=0), axis=1) * FPS)
     return np.stack(rows)
 
 
-def foot_plants(motion: np.ndarray, lowest_peak: float = 0.5, settled: float = 0.5) -> Plants:
-    """Foot plants of a motion (T, 22, 3): when the speed of a foot has fallen to `settled` of the step's peak.
+def foot_plants(motion: np.ndarray) -> Plants:
+    """Foot plants of a motion (T, 22, 3): when the speed of a foot has fallen to half of the step's peak.
 
-    At half the peak the speed changes fastest, so this time is known best; a captured foot goes on sliding a little.
-    Steps slower than `lowest_peak` m/s do not count.
+    There it changes fastest, so this time is known best; a captured foot goes on sliding a little. Steps slower than
+    0.5 m/s do not count.
     """
     seconds, feet, peaks = [], [], []
     for foot, speed in enumerate(foot_speed(motion)):
-        found, _ = find_peaks(speed, height=lowest_peak, prominence=0.5 * lowest_peak)
+        found, _ = find_peaks(speed, height=0.5, prominence=0.25)
         for peak, following in zip(found, np.append(found, len(speed))[1:], strict=True):
-            level = settled * speed[peak]
+            level = 0.5 * speed[peak]
             slow = np.flatnonzero(speed[peak:following] <= level)
             if len(slow):
                 after = peak + slow[0]
