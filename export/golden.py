@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from training.data.made import made_dancer
 from training.diffusion.guidance import blend, layer_gains, per_channel
-from training.diffusion.model import Model
+from training.diffusion.model import Model, ReactionModel
 from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
 from training.music.recipe import MUSIC_FEATURES
 
@@ -41,6 +43,25 @@ def inputs(scene: Scene) -> dict[str, np.ndarray]:
     }
 
 
+def sample(model: ReactionModel, given: Mapping[str, Tensor]) -> tuple[Tensor, Tensor]:
+    """The branches' latents and their mean (4, L, R, C), and the blended latents (L, R, C), of the inputs together with
+    their memory, silent and initial.
+    """
+    memory, sampling = given["memory"], model.sampling
+    steps = sampling.ddim()
+    mean = sample_mean(model, memory, steps)
+    branches = sample_branches(model, memory, given["silent"], given["initial"], steps, mean)
+    latents = blend(
+        branches,
+        per_channel(given["coarse"], sampling.channels),
+        float(given["music_guidance"]),
+        variety=1.0,  # the page repeats this sampling as it loads: without the seeds of the mean
+        music_fade=sampling.music_fade,
+    )
+    each = torch.stack([branches.conditional, branches.silent, branches.unconditional, branches.mean])
+    return each, latents
+
+
 @torch.no_grad()
 def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
     """Inputs and everything PyTorch makes of them: memory with and without the song, the
@@ -56,15 +77,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         model.condition(leader, tensors["music"], heard, role) for heard in (valid, torch.zeros_like(valid))
     )
     initial = initial_noise(sampling, scene.seed, len(memory))
-    steps = sampling.ddim()
-    branches = sample_branches(model, memory, silent, initial, steps, sample_mean(model, memory, steps))
-    latents = blend(
-        branches,
-        per_channel(tensors["coarse"], sampling.channels),
-        float(tensors["music_guidance"]),
-        variety=1.0,  # the page repeats this sampling as it loads: without the seeds of the mean
-        music_fade=sampling.music_fade,
-    )
+    branches, latents = sample(model, tensors | {"memory": memory, "silent": silent, "initial": initial})
     gains = layer_gains(tensors["fine"], sampling.layers)
     coarse_alone = layer_gains(torch.full_like(tensors["fine"], -1), sampling.layers)
     return given | {
@@ -73,9 +86,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         "silent": silent.numpy(),
         "unfamiliarity": model.unfamiliarity(leader).numpy(),
         "initial": initial.numpy(),
-        "branches": torch.stack(
-            [branches.conditional, branches.silent, branches.unconditional, branches.mean]
-        ).numpy(),
+        "branches": branches.numpy(),
         "latents": latents.numpy(),
         "reactor": model.decode(latents, leader, gains, role).numpy(),
         "coarse_alone": model.decode(latents, leader, coarse_alone, role).numpy(),

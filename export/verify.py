@@ -15,15 +15,14 @@ from rich.console import Console
 from rich.table import Table
 from torch import Tensor
 
-from export.golden import Scene, reference
+from export.golden import Scene, reference, sample
 from export.runtime import Exported, open_model
 from export.weights import round_convolutions
 from training.checkpoint import load_model
 from training.command_line import run_program
 from training.config import FPS
-from training.diffusion.guidance import blend, layer_gains, per_channel
+from training.diffusion.guidance import layer_gains
 from training.diffusion.model import Model
-from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
 
 TOLERANCE = 1e-4
 """Of single precision: the largest difference of memory and latents, and metres of joints."""
@@ -54,40 +53,23 @@ class Options:
     """Lengths of the dances that are compared, in blocks."""
 
 
-def differences(truth: dict[str, np.ndarray], exported: Exported, scene: Scene) -> dict[str, float]:
+def differences(truth: dict[str, np.ndarray], exported: Exported) -> dict[str, float]:
     """Largest absolute difference of memory, unfamiliarity, the branches' latents, and of the decoded joints in metres
     from those of PyTorch; and the mean distance of the joints, metres.
     """
     given = {name: torch.from_numpy(value) for name, value in truth.items()}
     memory = exported.condition(*(given[name] for name in ("leader", "music", "music_valid", "role")))
-    sampling = exported.sampling
-    steps = sampling.ddim()
-    branches = sample_branches(
-        exported,
-        given["memory"],
-        given["silent"],
-        initial_noise(sampling, scene.seed, len(memory)),
-        steps,
-        sample_mean(exported, given["memory"], steps),
-    )
-    latents = blend(
-        branches,
-        per_channel(given["coarse"], sampling.channels),
-        float(given["music_guidance"]),
-        variety=1.0,
-        music_fade=sampling.music_fade,
-    )
-    gains = layer_gains(given["fine"], sampling.layers)
+    branches, latents = sample(exported, given)
+    gains = layer_gains(given["fine"], exported.sampling.layers)
     reactor = exported.decode(latents, given["leader"], gains, given["role"])
 
     def worst(a: Tensor, b: np.ndarray) -> float:
         return float(np.abs(a.numpy() - b).max())
 
-    each = torch.stack([branches.conditional, branches.silent, branches.unconditional, branches.mean])
     return {
         "memory": worst(memory, truth["memory"]),
         "unfamiliarity": worst(exported.unfamiliarity(given["leader"]), truth["unfamiliarity"]),
-        "branches": worst(each, truth["branches"]),
+        "branches": worst(branches, truth["branches"]),
         "reactor": worst(reactor, truth["reactor"]),
         "distance": distance(reactor.numpy(), truth["reactor"]),
     }
@@ -122,8 +104,8 @@ def verify(
         scene = Scene(frames, silent_from=frames * 3 // 4)
         truth = reference(rounded, scene)
         results[count] = {
-            **differences(truth, single, scene),
-            "int8": differences(truth, int8, scene)["distance"],
+            **differences(truth, single),
+            "int8": differences(truth, int8)["distance"],
             "rounding": distance(truth["reactor"], reference(model, scene)["reactor"]),
         }
         bad = {name: value for name, value in results[count].items() if not value <= tolerance(name)}
