@@ -1,13 +1,14 @@
 """Draws when the feet of every duet are planted, beside the beats of the tempo that is fitted to them.
 
-    python -m training.evaluation.report.beat_pictures --duets DUETS.npz --val NAME --test NAME NAME --out runs/beats
+    python -m training.evaluation.report.beat_pictures --data my-duets --val duo_3 --test duo_5 --out runs/beats
 
-One PNG per duet and a table of tempi and fits on the screen.
+A duet without a song gets music of that tempo. One PNG per duet, and a table of tempi and fits on the screen; of
+validation and test duets only the leader's steps are read, as for their music.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
@@ -22,8 +23,7 @@ from rich.table import Table
 from training.command_line import run_program
 from training.config import FPS
 from training.data.duet import Duet
-from training.data.npz import read_npz
-from training.data.splits import split
+from training.data.sources import read_split
 from training.data.step_tempo import duet_tempo, foot_plants, foot_speed, plant_fit
 from training.music.tempo import CYCLE, Tempo
 
@@ -65,14 +65,15 @@ def draw(duet: Duet, tempo: Tempo, path: Path) -> None:
 
 @dataclass(frozen=True)
 class Options:
-    duets: Path
+    data: Path
+    """As for training: an .npz archive, a DD100 root, or a folder of BVH pairs."""
     val: tuple[str, ...] = ()
     test: tuple[str, ...] = ()
-    out: Path = field(default=Path("runs/beats"))
+    out: Path = Path("runs/beats")
 
 
 def main(options: Options) -> None:
-    parts = split(read_npz(options.duets), options.val, options.test)
+    parts = read_split(options.data, options.val, options.test)
     options.out.mkdir(parents=True, exist_ok=True)
     table = Table(
         "duet", "tempo from", "BPM", "count 1 (s)", "leader on count", "conc.", "reactor on count", "conc."
