@@ -141,8 +141,8 @@ const FIRST_VISIT_SHIFT_REM = { low: 8.4375, high: 12.5 };
 /** Height of the cameras and of the stage's tools, along the edges of the picture. */
 const CONTROLS_REM = 2.75;
 
-/** Keeps the dancers clear of the first-visit block, a leader's video and the stage's controls; returns a function that stops it. */
-export function leaveRoomForControls(stage: Stage, store: Store): () => void {
+/** Keeps the dancers clear of the first-visit block, a leader's video and the stage's controls. */
+export function leaveRoomForControls(stage: Stage, store: Store): void {
   const leave = (): void => {
     const { firstVisit, covered } = store.getState();
     const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
@@ -151,12 +151,7 @@ export function leaveRoomForControls(stage: Stage, store: Store): () => void {
     stage.leaveRoom({ left, edges: firstVisit ? 0 : CONTROLS_REM * rem });
   };
   for (const query of [WIDE, LOW]) query.addEventListener('change', leave);
-  return combineDisposers(
-    watchAll(store, (state) => [state.firstVisit, state.covered], leave),
-    () => {
-      for (const query of [WIDE, LOW]) query.removeEventListener('change', leave);
-    },
-  );
+  watchAll(store, (state) => [state.firstVisit, state.covered], leave);
 }
 
 /**

@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, onPressOutside, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText, setVariable } from '../widgets/dom';
 import { createDownloadMotion } from './download-motion';
 import { createDownloadPart } from './download-part';
 import { createDownloadVideo } from './download-video';
@@ -27,24 +27,21 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   const wide = createButton('btn primary desk', 'download', 'Download', toggle);
   const narrow = createButton('icon phone-only', 'share', null, toggle);
   const buttons = [wide, narrow];
-  const part = createDownloadPart(store);
   const motion = createDownloadMotion(store, services);
-  const video = createDownloadVideo(store, services);
   const project = textButton('btn tint project-button', 'Open or save a project', () => {
     apply(store, panelToggled('project'));
   });
   const menu = el(
     'div',
     { class: 'float menu', attributes: { role: 'dialog', 'aria-label': 'Download' } },
-    ...part.rows,
+    ...createDownloadPart(store),
     ...motion.parts,
-    video.part,
+    createDownloadVideo(store, services),
     project,
   );
   menu.hidden = true;
   const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
-  const elements = [wide.element, narrow.element, menu, spoken];
-  root.append(...elements);
+  root.append(wide.element, narrow.element, menu, spoken);
 
   const showOpen = (open: boolean): void => {
     const wasOpen = !menu.hidden;
@@ -54,26 +51,18 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     else if (wasOpen && (menu.contains(document.activeElement) || document.activeElement === document.body))
       (wide.element.offsetParent ? wide : narrow).element.focus();
   };
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.reaction, state.videoProgress, state.saved],
-      (state) => {
-        for (const button of buttons) showButton(button, state);
-        setText(spoken, announcement(state));
-      },
-    ),
-    watch(store, (state) => state.openPanel === 'download', showOpen),
-    part.dispose,
-    motion.dispose,
-    video.dispose,
-    onPressOutside([menu, wide.element, narrow.element], () => {
-      if (!menu.hidden) toggle();
-    }),
-    () => {
-      for (const element of elements) element.remove();
+  watchAll(
+    store,
+    (state) => [state.reaction, state.videoProgress, state.saved],
+    (state) => {
+      for (const button of buttons) showButton(button, state);
+      setText(spoken, announcement(state));
     },
   );
+  watch(store, (state) => state.openPanel === 'download', showOpen);
+  onPressOutside([menu, wide.element, narrow.element], () => {
+    if (!menu.hidden) toggle();
+  });
 };
 
 function createButton(

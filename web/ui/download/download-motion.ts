@@ -1,6 +1,6 @@
 import { estimateBytes, FRAME_RATES, type FrameRate, type MotionFormat } from '../../export/client';
 import { chosenDance, chosenRole, fileNameParts, selectionOf } from './dance';
-import { el, setText, combineDisposers, UNTRANSLATED } from '../widgets/dom';
+import { el, setText, UNTRANSLATED } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { motionFileName } from './file-name';
 import { byteSize } from '../store/format';
@@ -29,7 +29,6 @@ interface DownloadMotion {
   readonly parts: readonly HTMLElement[];
   /** Puts the focus on the format that was saved last. */
   readonly focus: () => void;
-  readonly dispose: () => void;
 }
 
 export function createDownloadMotion(store: Store, services: Services): DownloadMotion {
@@ -74,6 +73,20 @@ export function createDownloadMotion(store: Store, services: Services): Download
       showSize(state.writing === format ? 'Writing' : size);
     }
   };
+  watchAll(store, shownParts, (state) => {
+    who.show(chosenRole(state));
+    rates.show(state.download.rate);
+    for (const row of rows) row.show(state);
+    fileName.show(state, previewed);
+    showSizes(state);
+  });
+  watch(
+    store,
+    (state) => state.openPanel,
+    (_, state) => {
+      showSizes(state);
+    },
+  );
   return {
     parts: [
       el('div', { class: 'row' }, el('h2', { text: 'Motion of' }), who.element),
@@ -85,22 +98,6 @@ export function createDownloadMotion(store: Store, services: Services): Download
       const { format } = store.getState().download;
       rows.find((row) => row.format === format)?.button.focus();
     },
-    dispose: combineDisposers(
-      watchAll(store, shownParts, (state) => {
-        who.show(chosenRole(state));
-        rates.show(state.download.rate);
-        for (const row of rows) row.show(state);
-        fileName.show(state, previewed);
-        showSizes(state);
-      }),
-      watch(
-        store,
-        (state) => state.openPanel,
-        (_, state) => {
-          showSizes(state);
-        },
-      ),
-    ),
   };
 }
 

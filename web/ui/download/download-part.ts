@@ -8,10 +8,7 @@ import { clockTime } from '../store/format';
 import { apply, type Store, watchAll } from '../store/store';
 
 /** Part of the download menu: whether motions and videos are of the whole dance or of the loop, and how to draw one. */
-export function createDownloadPart(store: Store): {
-  readonly rows: readonly HTMLElement[];
-  readonly dispose: () => void;
-} {
+export function createDownloadPart(store: Store): readonly HTMLElement[] {
   const chosen = el('span');
   const hint = el('span', { class: 'ruler-hint', text: '. For a part, drag a loop on the ruler.' });
   const parts = radioGroup(
@@ -30,35 +27,33 @@ export function createDownloadPart(store: Store): {
       apply(store, regionEndSetOnBeat(end, store.getState().playback.time));
       apply(store, downloadChosen({ part: 'loop' }));
     });
-  return {
-    rows: [
-      el(
-        'div',
-        { class: 'row' },
-        el('h2', { text: 'Part' }),
-        el('span', { class: 'soft' }, chosen, hint),
-        parts.element,
-      ),
-      el(
-        'div',
-        { class: 'row no-ruler' },
-        el('span', { class: 'soft', text: 'Loop' }),
-        endButton('from', 'Start here'),
-        endButton('to', 'End here'),
-      ),
-    ],
-    dispose: watchAll(
-      store,
-      ({ reaction, download, playback }) => [reaction, download.part, playback.region],
-      (state) => {
-        const part = chosenPart(state);
-        const drawn = state.playback.region !== null;
-        parts.element.hidden = !drawn;
-        hint.hidden = drawn;
-        parts.show(part ? 'loop' : 'whole');
-        if (part) setText(chosen, `${clockTime(part.from)} to ${clockTime(part.to)}`);
-        else setText(chosen, drawn ? '' : 'Whole dance');
-      },
+  watchAll(
+    store,
+    ({ reaction, download, playback }) => [reaction, download.part, playback.region],
+    (state) => {
+      const part = chosenPart(state);
+      const drawn = state.playback.region !== null;
+      parts.element.hidden = !drawn;
+      hint.hidden = drawn;
+      parts.show(part ? 'loop' : 'whole');
+      if (part) setText(chosen, `${clockTime(part.from)} to ${clockTime(part.to)}`);
+      else setText(chosen, drawn ? '' : 'Whole dance');
+    },
+  );
+  return [
+    el(
+      'div',
+      { class: 'row' },
+      el('h2', { text: 'Part' }),
+      el('span', { class: 'soft' }, chosen, hint),
+      parts.element,
     ),
-  };
+    el(
+      'div',
+      { class: 'row no-ruler' },
+      el('span', { class: 'soft', text: 'Loop' }),
+      endButton('from', 'Start here'),
+      endButton('to', 'End here'),
+    ),
+  ];
 }

@@ -3,7 +3,7 @@ import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
 import { chosenPart, fileNameParts, savedVideo } from './dance';
 import { createDownloadPicture } from './download-picture';
 import { textButton } from '../widgets/button';
-import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setText, setVariable } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { videoFileName } from './file-name';
 import { byteSize, duration } from '../store/format';
@@ -14,10 +14,7 @@ import type { AppState, VideoProgress } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 
 /** Part of the download menu: the video of the stage, its size and its progress, and a picture of the same size. */
-export function createDownloadVideo(
-  store: Store,
-  services: Services,
-): { readonly part: HTMLElement; readonly dispose: () => void } {
+export function createDownloadVideo(store: Store, services: Services): HTMLElement {
   /** How the video would be written; undefined until the browser has answered. */
   let plan: Plan;
   const sizes = radioGroup(
@@ -68,31 +65,27 @@ export function createDownloadVideo(
     plan = answer;
     show(store.getState());
   };
-  return {
-    part,
-    dispose: combineDisposers(
-      watchAll(
-        store,
-        (state) => [
-          state.videoProgress,
-          state.leader,
-          state.reaction,
-          state.takes,
-          state.footLock,
-          state.download,
-          state.playback.region,
-          state.saved,
-          state.writing,
-        ],
-        show,
-      ),
-      watchAll(
-        store,
-        (state) => [state.openPanel, state.download.size, state.reaction?.inputs.song],
-        (state) => void ask(state),
-      ),
-    ),
-  };
+  watchAll(
+    store,
+    (state) => [
+      state.videoProgress,
+      state.leader,
+      state.reaction,
+      state.takes,
+      state.footLock,
+      state.download,
+      state.playback.region,
+      state.saved,
+      state.writing,
+    ],
+    show,
+  );
+  watchAll(
+    store,
+    (state) => [state.openPanel, state.download.size, state.reaction?.inputs.song],
+    (state) => void ask(state),
+  );
+  return part;
 }
 
 /**

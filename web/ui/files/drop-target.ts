@@ -1,4 +1,4 @@
-import { el, listen, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { droppedFiles } from './dropped';
 import type { Mount } from '../store/services';
 
@@ -20,24 +20,19 @@ export const mountDropTarget: Mount = (root, _store, services) => {
     depth = Math.max(0, depth + change);
     overlay.hidden = depth === 0;
   };
-  return combineDisposers(
-    listen(window, 'dragenter', (event) => {
-      if (carriesFiles(event)) show(1);
-    }),
-    listen(window, 'dragleave', (event) => {
-      if (carriesFiles(event)) show(-1);
-    }),
-    listen(window, 'dragover', (event) => {
-      if (carriesFiles(event)) event.preventDefault();
-    }),
-    listen(window, 'drop', (event) => {
-      if (!carriesFiles(event)) return;
-      event.preventDefault();
-      show(-depth);
-      if (event.dataTransfer) services.openDropped(droppedFiles(event.dataTransfer));
-    }),
-    () => {
-      overlay.remove();
-    },
-  );
+  window.addEventListener('dragenter', (event) => {
+    if (carriesFiles(event)) show(1);
+  });
+  window.addEventListener('dragleave', (event) => {
+    if (carriesFiles(event)) show(-1);
+  });
+  window.addEventListener('dragover', (event) => {
+    if (carriesFiles(event)) event.preventDefault();
+  });
+  window.addEventListener('drop', (event) => {
+    if (!carriesFiles(event)) return;
+    event.preventDefault();
+    show(-depth);
+    if (event.dataTransfer) services.openDropped(droppedFiles(event.dataTransfer));
+  });
 };

@@ -1,7 +1,7 @@
 import { loadedRole, roleName } from '../store/roles';
 import { tempoText } from '../store/counting';
 import { duration } from '../store/format';
-import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setText, setVariable } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { rateText } from '../store/selectors';
 import type { Services } from '../store/services';
@@ -14,12 +14,7 @@ const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a video or a motion file' } as const;
 
 /** The song's or the leader's chip in the bar: its name, below it what it is, and a click chooses another one. */
-export function mountFileChip(
-  root: HTMLElement,
-  store: Store,
-  services: Services,
-  side: InputKind,
-): () => void {
+export function mountFileChip(root: HTMLElement, store: Store, services: Services, side: InputKind): void {
   const name = el('b');
   const details = el('small');
   const progress = el('span', { class: 'reading-progress', attributes: { 'aria-hidden': 'true' } });
@@ -59,15 +54,10 @@ export function mountFileChip(
     const what = content.name ? `${title}: ${content.name} ${content.details}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state[side], state.reading[side], state.countings, state.problem, state.settings?.role],
-      show,
-    ),
-    () => {
-      chip.remove();
-    },
+  watchAll(
+    store,
+    (state) => [state[side], state.reading[side], state.countings, state.problem, state.settings?.role],
+    show,
   );
 }
 

@@ -1,6 +1,6 @@
 import { textButton } from '../widgets/button';
 import { createDialogPlace } from '../widgets/dialog-place';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { givenSet } from '../store/actions/files';
 import type { Mount, Services } from '../store/services';
 import type { FileGroup, GivenFiles } from '../store/state';
@@ -9,16 +9,13 @@ import { apply, watch, type Store } from '../store/store';
 /** The files that were given together: which song and which leader is used, and what the others are. */
 export const mountGivenDialog: Mount = (root, store, services) => {
   const place = createDialogPlace(root);
-  return combineDisposers(
-    watch(
-      store,
-      ({ given }) => given,
-      (given) => {
-        if (given) place.show(build(given, store, services), 'input:checked, button');
-        else place.close();
-      },
-    ),
-    place.close,
+  watch(
+    store,
+    ({ given }) => given,
+    (given) => {
+      if (given) place.show(build(given, store, services), 'input:checked, button');
+      else place.close();
+    },
   );
 };
 

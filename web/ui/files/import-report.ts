@@ -3,7 +3,7 @@ import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { standingHeight } from '../../motion/skeleton/kinematics';
 import { loadedRole, roleName } from '../store/roles';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { countingOf, countedBeats, tempoText } from '../store/counting';
 import { centimetres, clockTime, rate } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
@@ -50,9 +50,7 @@ export const mountImportReport: Mount = (root, store, services) => {
     );
     if (focused) document.getElementById(focused)?.focus();
   };
-  return combineDisposers(watchAll(store, reported, show), () => {
-    section.remove();
-  });
+  watchAll(store, reported, show);
 };
 
 /** What the report is made of: it is made anew when one of these changes, which closes a list that is open in it. */

@@ -1,7 +1,7 @@
 import { HEIGHTS } from '../../model/client';
 import { standingHeight } from '../../motion/skeleton/kinematics';
 import { iconButton } from '../widgets/button';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { takeBackOnEscape } from '../widgets/unfinished-number';
 import { centimetres } from '../store/format';
 import { generatedRole, roleName } from '../store/roles';
@@ -61,12 +61,7 @@ export const mountHeightBox: Mount = (root, store) => {
       `Height of the ${who.toLowerCase()} from the floor to the crown, ` +
       (set === null ? 'in proportion to the other dancer' : 'as you set it');
   };
-  return combineDisposers(
-    watchAll(store, (state) => [state.settings, state.reaction], show),
-    () => {
-      box.remove();
-    },
-  );
+  watchAll(store, (state) => [state.settings, state.reaction], show);
 };
 
 /** The height of the dancer on the stage, if it is in proportion; null while there is none. */

@@ -1,4 +1,4 @@
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { footLockSet } from '../store/actions/reaction';
 import { holdHandsSet } from '../store/actions/settings';
@@ -33,24 +33,19 @@ export const mountMotionSwitches: Mount = (root, store) => {
     feet,
   );
   root.append(section);
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.settings,
-      (settings) => {
-        hands.disabled = !settings;
-        hands.setAttribute('aria-checked', String(settings?.holdHands ?? true));
-      },
-    ),
-    watch(
-      store,
-      (state) => state.footLock,
-      (on) => {
-        feet.setAttribute('aria-checked', String(on));
-      },
-    ),
-    () => {
-      section.remove();
+  watch(
+    store,
+    (state) => state.settings,
+    (settings) => {
+      hands.disabled = !settings;
+      hands.setAttribute('aria-checked', String(settings?.holdHands ?? true));
+    },
+  );
+  watch(
+    store,
+    (state) => state.footLock,
+    (on) => {
+      feet.setAttribute('aria-checked', String(on));
     },
   );
 };

@@ -2,7 +2,7 @@ import { mountVariationCards } from './variation-cards';
 import { allVariationsMade } from '../store/actions/variations';
 import { loadedRole, generatedRole } from '../store/roles';
 import { setDisabled, textButton } from '../widgets/button';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { mountHeightBox } from './height-box';
 import { mountSeedBox } from './seed-box';
@@ -34,35 +34,27 @@ export const mountOptions: Mount = (root, store, services) => {
     head,
   );
   root.append(section);
-  const seed = mountSeedBox(head, store, services);
-  const cards = mountVariationCards(section, store, services);
+  mountSeedBox(head, store, services);
+  mountVariationCards(section, store, services);
   const row = el('div', { class: 'option-row' });
-  const height = mountHeightBox(row, store, services);
+  mountHeightBox(row, store, services);
   row.append(...swap.elements);
   section.append(el('div', { class: 'make' }, ...generate.elements, ...variations.elements), row);
-  return combineDisposers(
-    seed,
-    cards,
-    height,
-    watchAll(
-      store,
-      (state) => [
-        state.settings,
-        state.leader,
-        state.song,
-        state.shift,
-        state.reaction,
-        state.variations,
-        state.seedLocked,
-        ...isReading(state),
-        state.job !== null,
-      ],
-      (state) => {
-        for (const control of [swap, generate, variations]) control.show(state);
-      },
-    ),
-    () => {
-      section.remove();
+  watchAll(
+    store,
+    (state) => [
+      state.settings,
+      state.leader,
+      state.song,
+      state.shift,
+      state.reaction,
+      state.variations,
+      state.seedLocked,
+      ...isReading(state),
+      state.job !== null,
+    ],
+    (state) => {
+      for (const control of [swap, generate, variations]) control.show(state);
     },
   );
 };

@@ -1,5 +1,5 @@
 import { generatedRole, roleName } from '../store/roles';
-import { el, rememberFocus, setText, setVariable, combineDisposers, UNTRANSLATED } from '../widgets/dom';
+import { el, rememberFocus, setText, setVariable, UNTRANSLATED } from '../widgets/dom';
 import { jobText } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
@@ -73,14 +73,7 @@ export const mountProgress: Mount = (root, store, services) => {
     setVariable(fill, '--part', job.fraction);
     meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));
   };
-  return combineDisposers(
-    watchAll(store, (state) => [state.job, state.model], show),
-    () => {
-      if (timer !== null) clearTimeout(timer);
-      box.remove();
-      spoken.remove();
-    },
-  );
+  watchAll(store, (state) => [state.job, state.model], show);
 };
 
 function createCancel(services: Services): HTMLElement {

@@ -1,6 +1,6 @@
 import { SEEDS } from '../../model/client';
 import { iconButton } from '../widgets/button';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { takeBackOnEscape } from '../widgets/unfinished-number';
 import type { Mount } from '../store/services';
@@ -46,11 +46,5 @@ export const mountSeedBox: Mount = (root, store) => {
     lock.setAttribute('aria-pressed', String(seedLocked));
     lock.replaceChildren(icon(seedLocked ? 'lock' : 'unlock'));
   };
-  return combineDisposers(
-    watchAll(store, (state) => [state.settings, state.seedLocked], show),
-    () => {
-      label.remove();
-      box.remove();
-    },
-  );
+  watchAll(store, (state) => [state.settings, state.seedLocked], show);
 };

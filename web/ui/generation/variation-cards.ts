@@ -1,6 +1,6 @@
 import { onPixelSize } from '../../common/pixel-size';
 import { allVariationsMade, VARIATION_COUNT } from '../store/actions/variations';
-import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setAttribute, setText, setVariable } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { ARROW_STEPS } from '../widgets/radio-group';
 import { clockTime } from '../store/format';
@@ -73,32 +73,25 @@ export const mountVariationCards: Mount = (root, store, services) => {
     const reactions = cardContents(state).map(({ reaction }) => reaction);
     if (services.drawFigure) drawFigures(canvases, reactions, state, services.drawFigure);
   }, DRAW_INTERVAL_MS);
-  return combineDisposers(
-    onPixelSize(group, figures.run),
-    watchAll(
-      store,
-      (state) => [state.variations, state.reaction, state.settings],
-      (state) => {
-        showCards(cards, state);
-        setText(spoken, state.variations ? madeText(state.variations.list) : '');
-      },
-    ),
-    watchAll(
-      store,
-      ({ variations, reaction, theme, playback, settings }) => [
-        variations?.list,
-        reaction,
-        theme,
-        allVariationsMade(variations) || playback.playing ? null : playback.time,
-        settings?.role,
-      ],
-      figures.run,
-    ),
-    () => {
-      figures.cancel();
-      group.remove();
-      spoken.remove();
+  onPixelSize(group, figures);
+  watchAll(
+    store,
+    (state) => [state.variations, state.reaction, state.settings],
+    (state) => {
+      showCards(cards, state);
+      setText(spoken, state.variations ? madeText(state.variations.list) : '');
     },
+  );
+  watchAll(
+    store,
+    ({ variations, reaction, theme, playback, settings }) => [
+      variations?.list,
+      reaction,
+      theme,
+      allVariationsMade(variations) || playback.playing ? null : playback.time,
+      settings?.role,
+    ],
+    figures,
   );
 };
 
@@ -189,10 +182,7 @@ function isOnStage(state: AppState, reaction: Reaction | null): boolean {
 }
 
 /** Runs `action` at once, but at most every `interval` milliseconds: later calls in between share one late run. */
-function throttle(
-  action: () => void,
-  interval: number,
-): { readonly run: () => void; readonly cancel: () => void } {
+function throttle(action: () => void, interval: number): () => void {
   let last = -Infinity;
   let timer: ReturnType<typeof setTimeout> | undefined;
   const run = (): void => {
@@ -205,10 +195,5 @@ function throttle(
     last = performance.now();
     action();
   };
-  return {
-    run,
-    cancel: () => {
-      clearTimeout(timer);
-    },
-  };
+  return run;
 }

@@ -1,5 +1,5 @@
 import { iconButton } from '../widgets/button';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { createFaders } from './faders';
 import { mountMatrix } from './matrix';
 import { mountPresetMenu } from './preset-menu';
@@ -31,33 +31,26 @@ export const mountGuidance: Mount = (root, store, services) => {
     ...faders.elements,
   );
   root.append(section);
-  const menu = mountPresetMenu(head, store, services);
+  mountPresetMenu(head, store, services);
   head.append(reset);
-  const matrix = mountMatrix(section, store, services);
+  mountMatrix(section, store, services);
 
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [
-        ...[state.settings, state.manifest, state.song !== null, state.job !== null],
-        ...[...isReading(state), state.restoring !== null],
-      ],
-      (state) => {
-        reset.disabled = !state.settings;
-        faders.show(state);
-      },
-    ),
-    menu,
-    matrix,
-    followDrags(section, store),
-    () => {
-      section.remove();
+  watchAll(
+    store,
+    (state) => [
+      ...[state.settings, state.manifest, state.song !== null, state.job !== null],
+      ...[...isReading(state), state.restoring !== null],
+    ],
+    (state) => {
+      reset.disabled = !state.settings;
+      faders.show(state);
     },
   );
+  followDrags(section, store);
 };
 
 /** Says when a fader in the section is grabbed and released; wherever the pointer is by then, the page hears of it. */
-function followDrags(section: HTMLElement, store: Store): () => void {
+function followDrags(section: HTMLElement, store: Store): void {
   const begin = ({ target }: Event): void => {
     if (target instanceof HTMLInputElement && target.type === 'range') apply(store, dragBegun());
   };
@@ -65,10 +58,6 @@ function followDrags(section: HTMLElement, store: Store): () => void {
     if (store.getState().drag?.held) apply(store, dragEnded());
   };
   section.addEventListener('pointerdown', begin);
-  addEventListener('pointerup', end);
-  addEventListener('pointercancel', end);
-  return () => {
-    removeEventListener('pointerup', end);
-    removeEventListener('pointercancel', end);
-  };
+  window.addEventListener('pointerup', end);
+  window.addEventListener('pointercancel', end);
 }

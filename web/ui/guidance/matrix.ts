@@ -1,6 +1,6 @@
 import { valueText } from '../widgets/fader';
 import type { Manifest } from '../../model/client';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import { capitalised } from '../store/format';
 import { columnOf, guidanceAt, rangeOf } from '../store/guidance-matrix';
 import { icon } from '../widgets/icons';
@@ -36,30 +36,24 @@ export const mountMatrix: Mount = (root, store) => {
   root.append(fold, grid);
 
   let cells: readonly Cell[] = [];
-  return combineDisposers(
-    watch(
-      store,
-      ({ manifest }) => manifest,
-      (manifest) => {
-        if (!manifest) return;
-        cells = createCells(store, manifest);
-        fillGrid(grid, manifest, cells);
-      },
-    ),
-    watchAll(
-      store,
-      ({ settings, manifest }) => [settings?.guidance, manifest],
-      ({ settings, manifest }) => {
-        fold.disabled = !settings;
-        if (!settings || !manifest) return;
-        setText(summary, isMixed(settings.guidance) ? 'Mixed' : 'Same for all');
-        for (const { stream, layer, fader } of cells)
-          fader.show(rangeOf(manifest.guidance, layer), guidanceAt(settings.guidance, stream, layer));
-      },
-    ),
-    () => {
-      fold.remove();
-      grid.remove();
+  watch(
+    store,
+    ({ manifest }) => manifest,
+    (manifest) => {
+      if (!manifest) return;
+      cells = createCells(store, manifest);
+      fillGrid(grid, manifest, cells);
+    },
+  );
+  watchAll(
+    store,
+    ({ settings, manifest }) => [settings?.guidance, manifest],
+    ({ settings, manifest }) => {
+      fold.disabled = !settings;
+      if (!settings || !manifest) return;
+      setText(summary, isMixed(settings.guidance) ? 'Mixed' : 'Same for all');
+      for (const { stream, layer, fader } of cells)
+        fader.show(rangeOf(manifest.guidance, layer), guidanceAt(settings.guidance, stream, layer));
     },
   );
 };

@@ -1,4 +1,4 @@
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { type Preset, presetOf, presets } from './presets';
 import type { Mount } from '../store/services';
@@ -22,29 +22,24 @@ export const mountPresetMenu: Mount = (root, store) => {
   });
   const box = el('span', { class: 'btn preset' }, name, icon('fold'), menu);
   root.append(box);
-  return combineDisposers(
-    watch(
-      store,
-      ({ manifest }) => manifest,
-      (manifest) => {
-        list = manifest ? presets(manifest) : [];
-        menu.replaceChildren(...list.map(presetOption), customOption());
-      },
-    ),
-    watchAll(
-      store,
-      ({ manifest, settings }) => [manifest, settings?.guidance, settings?.music, settings?.variety],
-      ({ settings }) => {
-        menu.disabled = !settings;
-        if (!settings) return;
-        const chosen = presetOf(list, settings);
-        menu.selectedIndex = chosen ? list.indexOf(chosen) : list.length;
-        setText(name, chosen?.name ?? CUSTOM);
-        menu.title = chosen ? chosen.description : 'Your own mix. Choose a preset to start from.';
-      },
-    ),
-    () => {
-      box.remove();
+  watch(
+    store,
+    ({ manifest }) => manifest,
+    (manifest) => {
+      list = manifest ? presets(manifest) : [];
+      menu.replaceChildren(...list.map(presetOption), customOption());
+    },
+  );
+  watchAll(
+    store,
+    ({ manifest, settings }) => [manifest, settings?.guidance, settings?.music, settings?.variety],
+    ({ settings }) => {
+      menu.disabled = !settings;
+      if (!settings) return;
+      const chosen = presetOf(list, settings);
+      menu.selectedIndex = chosen ? list.indexOf(chosen) : list.length;
+      setText(name, chosen?.name ?? CUSTOM);
+      menu.title = chosen ? chosen.description : 'Your own mix. Choose a preset to start from.';
     },
   );
 };

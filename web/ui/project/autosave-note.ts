@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
 import { watchAll } from '../store/store';
@@ -26,31 +26,25 @@ export const mountAutosaveNote: Mount = (root, store, services) => {
   const note = el('div', { class: 'float update kept', attributes: { role: 'status' } }, text, button);
   const coming = el('div', { class: 'float toast restoring', attributes: { role: 'status' } });
   root.append(note, coming);
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.autosave, state.restoring],
-      ({ autosave: status, restoring }) => {
-        const shown = NOTES[status];
-        note.hidden = !shown;
-        setText(text, shown?.text ?? '');
-        setText(button, shown?.button ?? '');
-        // What is still being read cannot be written here yet.
-        button.hidden = restoring !== null;
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.restoring, state.leader],
-      ({ restoring, leader }) => {
-        // Once the couple is there, the rest comes quietly.
-        coming.hidden = !restoring || leader !== null;
-        setText(coming, restoring && !coming.hidden ? `Bringing back your work: ${restoring.what}` : '');
-      },
-    ),
-    () => {
-      note.remove();
-      coming.remove();
+  watchAll(
+    store,
+    (state) => [state.autosave, state.restoring],
+    ({ autosave: status, restoring }) => {
+      const shown = NOTES[status];
+      note.hidden = !shown;
+      setText(text, shown?.text ?? '');
+      setText(button, shown?.button ?? '');
+      // What is still being read cannot be written here yet.
+      button.hidden = restoring !== null;
+    },
+  );
+  watchAll(
+    store,
+    (state) => [state.restoring, state.leader],
+    ({ restoring, leader }) => {
+      // Once the couple is there, the rest comes quietly.
+      coming.hidden = !restoring || leader !== null;
+      setText(coming, restoring && !coming.hidden ? `Bringing back your work: ${restoring.what}` : '');
     },
   );
 };

@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/button';
-import { el, listen, onPressOutside, setAttribute, setText, combineDisposers } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
@@ -34,48 +34,42 @@ export const mountProjectMenu: Mount = (root, store, services) => {
   const elements = build(services, toggle);
   const { opener, menu, head, persistence, save, clear } = elements;
   root.append(opener, menu);
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.openPanel === 'project',
-      (isOpen) => {
-        showOpen(elements, isOpen);
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.autosave, state.persistent],
-      (state) => {
-        setText(head, HEADINGS[state.autosave]);
-        const sentence = persistenceText(state);
-        setText(persistence, sentence ?? '');
-        persistence.hidden = sentence === null;
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.leader, state.song, state.takes, state.countings, state.restoring],
-      (state) => {
-        // What is still being restored would be missing in the file, and could not be brought back.
-        save.disabled = state.restoring !== null || (!state.leader && !state.song);
-        clear.disabled = state.restoring !== null || !hasVisitorContent(state);
-      },
-    ),
-    onPressOutside([menu, opener], () => {
-      if (!menu.hidden) toggle();
-    }),
-    listen(window, 'keydown', (event) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
-      if (event.key.toLowerCase() !== 's') return;
-      // Also while there is nothing to save: nobody wants the page itself as a file.
-      event.preventDefault();
-      if (!save.disabled) services.saveProject();
-    }),
-    () => {
-      opener.remove();
-      menu.remove();
+  watch(
+    store,
+    (state) => state.openPanel === 'project',
+    (isOpen) => {
+      showOpen(elements, isOpen);
     },
   );
+  watchAll(
+    store,
+    (state) => [state.autosave, state.persistent],
+    (state) => {
+      setText(head, HEADINGS[state.autosave]);
+      const sentence = persistenceText(state);
+      setText(persistence, sentence ?? '');
+      persistence.hidden = sentence === null;
+    },
+  );
+  watchAll(
+    store,
+    (state) => [state.leader, state.song, state.takes, state.countings, state.restoring],
+    (state) => {
+      // What is still being restored would be missing in the file, and could not be brought back.
+      save.disabled = state.restoring !== null || (!state.leader && !state.song);
+      clear.disabled = state.restoring !== null || !hasVisitorContent(state);
+    },
+  );
+  onPressOutside([menu, opener], () => {
+    if (!menu.hidden) toggle();
+  });
+  window.addEventListener('keydown', (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
+    if (event.key.toLowerCase() !== 's') return;
+    // Also while there is nothing to save: nobody wants the page itself as a file.
+    event.preventDefault();
+    if (!save.disabled) services.saveProject();
+  });
 };
 
 function build(services: Services, toggle: () => void): Elements {

@@ -1,5 +1,4 @@
 import { onPixelSize } from '../../common/pixel-size';
-import { combineDisposers, listen } from '../widgets/dom';
 import { InfoCard } from '../widgets/info-card';
 import { createQualityLane, type LaneContent, type QualityLane } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
@@ -33,7 +32,7 @@ export function mountQualityStrip(
   store: Store,
   services: Services,
   visibleSpan: (state: AppState) => Span = wholeDance,
-): () => void {
+): void {
   const jumpTo = ({ part, moment }: Mark): void => {
     const { quality } = store.getState();
     if (quality) services.showMoment(part, moment.frame / quality.reactor.fps);
@@ -49,32 +48,23 @@ export function mountQualityStrip(
   const draw = (state: AppState): void => {
     drawLanes(partLanes, worstLane, state, visibleSpan(state));
   };
-  return combineDisposers(
-    onPixelSize(root, () => {
-      draw(store.getState());
-    }),
-    markWhileLookedAt(root, lanes),
-    watchAll(
-      store,
-      (state) => {
-        const { from, to } = visibleSpan(state);
-        return [state.quality, state.reference, state.manifest, state.theme, from, to];
-      },
-      draw,
-    ),
-    watchAll(
-      store,
-      (state) => [state.quality, state.job, state.reaction, reactorMotion(state)],
-      (state) => {
-        for (const lane of lanes) lane.setStale(isStale(state));
-      },
-    ),
-    () => {
-      cards.dispose();
-      for (const { label, lane } of lanes) {
-        label.remove();
-        lane.remove();
-      }
+  onPixelSize(root, () => {
+    draw(store.getState());
+  });
+  markWhileLookedAt(root, lanes);
+  watchAll(
+    store,
+    (state) => {
+      const { from, to } = visibleSpan(state);
+      return [state.quality, state.reference, state.manifest, state.theme, from, to];
+    },
+    draw,
+  );
+  watchAll(
+    store,
+    (state) => [state.quality, state.job, state.reaction, reactorMotion(state)],
+    (state) => {
+      for (const lane of lanes) lane.setStale(isStale(state));
     },
   );
 }
@@ -88,9 +78,9 @@ function isStale(state: AppState): boolean {
 
 /**
  * Marks `root` as `looked-at` while the pointer or the focus is in one of the lanes, and after a tap until the next one
- * elsewhere; returns a function that stops it.
+ * elsewhere.
  */
-function markWhileLookedAt(root: HTMLElement, lanes: readonly QualityLane[]): () => void {
+function markWhileLookedAt(root: HTMLElement, lanes: readonly QualityLane[]): void {
   const parts = lanes.flatMap(({ label, lane }) => [label, lane]);
   const isInside = (target: EventTarget | null): boolean =>
     target instanceof Node && parts.some((part) => part.contains(target));
@@ -98,11 +88,9 @@ function markWhileLookedAt(root: HTMLElement, lanes: readonly QualityLane[]): ()
     const focused = type === 'pointerover' && isInside(document.activeElement);
     root.classList.toggle('looked-at', focused || isInside(target));
   };
-  return combineDisposers(
-    listen(window, 'pointerover', follow),
-    listen(window, 'pointerdown', follow),
-    listen(window, 'focusin', follow),
-  );
+  window.addEventListener('pointerover', follow);
+  window.addEventListener('pointerdown', follow);
+  window.addEventListener('focusin', follow);
 }
 
 function drawLanes(

@@ -1,6 +1,6 @@
 import { textButton } from '../widgets/button';
 import { mountDeviceCard } from './device-card';
-import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setText, setVariable } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { bytesOf, capitalised } from '../store/format';
 import type { Mount } from '../store/services';
@@ -40,7 +40,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
   );
   const badge = el('div', { class: 'badge' }, about, meter, bytes, again);
   root.append(badge);
-  const card = mountDeviceCard(badge, about, store, services);
+  mountDeviceCard(badge, about, store, services);
 
   const show = (model: ModelState): void => {
     const loading = model.phase === 'loading';
@@ -67,13 +67,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       about.title = model.problem.title;
     }
   };
-  return combineDisposers(
-    watch(store, (state) => state.model, show),
-    card,
-    () => {
-      badge.remove();
-    },
-  );
+  watch(store, (state) => state.model, show);
 };
 
 type Loading = Extract<ModelState, { readonly phase: 'loading' }>;

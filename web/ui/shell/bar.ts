@@ -1,7 +1,7 @@
 import { iconButton } from '../widgets/button';
 import { mountBackendBadge } from './backend-badge';
 import { mountFileChip } from '../files/file-chip';
-import { el, setAttribute, combineDisposers, UNTRANSLATED } from '../widgets/dom';
+import { el, setAttribute, UNTRANSLATED } from '../widgets/dom';
 import { mountDownloadMenu } from '../download/download-menu';
 import { brandMark, icon } from '../widgets/icons';
 import { mountProjectMenu } from '../project/project-menu';
@@ -47,39 +47,28 @@ export const mountBar: Mount = (root, store, services) => {
       }),
     ),
   );
-  const song = mountFileChip(root, store, services, 'song');
-  const leader = mountFileChip(root, store, services, 'leader');
+  mountFileChip(root, store, services, 'song');
+  mountFileChip(root, store, services, 'leader');
   root.append(el('span', { class: 'grow' }));
-  const badge = mountBackendBadge(root, store, services);
+  mountBackendBadge(root, store, services);
   root.append(el('span', { class: 'vline' }));
-  const undo = mountUndo(root, store, services);
-  const project = mountProjectMenu(root, store, services);
+  mountUndo(root, store, services);
+  mountProjectMenu(root, store, services);
   root.append(keys, theme);
-  const download = mountDownloadMenu(root, store, services);
+  mountDownloadMenu(root, store, services);
 
-  return combineDisposers(
-    song,
-    leader,
-    badge,
-    undo,
-    project,
-    download,
-    watch(
-      store,
-      (state) => state.theme,
-      (value) => {
-        theme.setAttribute('aria-label', value === 'dark' ? 'Switch to light' : 'Switch to dark');
-      },
-    ),
-    watch(
-      store,
-      (state) => state.openPanel === 'keys',
-      (open) => {
-        setAttribute(keys, 'aria-expanded', open ? 'true' : 'false');
-      },
-    ),
-    () => {
-      root.replaceChildren();
+  watch(
+    store,
+    (state) => state.theme,
+    (value) => {
+      theme.setAttribute('aria-label', value === 'dark' ? 'Switch to light' : 'Switch to dark');
+    },
+  );
+  watch(
+    store,
+    (state) => state.openPanel === 'keys',
+    (open) => {
+      setAttribute(keys, 'aria-expanded', open ? 'true' : 'false');
     },
   );
 };

@@ -1,5 +1,5 @@
 import { textButton, closeButton } from '../widgets/button';
-import { el, onPressOutside, setText, combineDisposers } from '../widgets/dom';
+import { el, onPressOutside, setText } from '../widgets/dom';
 import { byteSize, bytesOf } from '../store/format';
 import type { Services } from '../store/services';
 import type { ModelState } from '../store/state';
@@ -30,47 +30,42 @@ export function mountDeviceCard(
   opener: HTMLElement,
   store: Store,
   services: Services,
-): () => void {
+): void {
   const toggle = (): void => {
     apply(store, panelToggled('device'));
   };
   const elements = build(toggle, () => void empty(elements, services));
   const { card, why, work } = elements;
   root.append(card);
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.openPanel === 'device',
-      (open) => {
-        showOpen(elements, opener, open);
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.openPanel === 'device', state.model.phase],
-      ({ openPanel }) => {
-        if (openPanel !== 'device') return;
-        void services.measureStorage().then((usage) => {
-          showStorage(elements, usage, storageText(usage));
-        });
-      },
-    ),
-    watch(
-      store,
-      ({ openPanel, model }) => (openPanel === 'device' ? reason(model) : ''),
-      (sentence) => setText(why, sentence),
-    ),
-    watch(store, persistenceText, (sentence) => {
-      setText(work, sentence === null ? '' : `Your songs, leaders and takes: ${sentence}`);
-      work.hidden = sentence === null;
-    }),
-    onPressOutside([card, opener], () => {
-      if (!card.hidden) toggle();
-    }),
-    () => {
-      card.remove();
+  watch(
+    store,
+    (state) => state.openPanel === 'device',
+    (open) => {
+      showOpen(elements, opener, open);
     },
   );
+  watchAll(
+    store,
+    (state) => [state.openPanel === 'device', state.model.phase],
+    ({ openPanel }) => {
+      if (openPanel !== 'device') return;
+      void services.measureStorage().then((usage) => {
+        showStorage(elements, usage, storageText(usage));
+      });
+    },
+  );
+  watch(
+    store,
+    ({ openPanel, model }) => (openPanel === 'device' ? reason(model) : ''),
+    (sentence) => setText(why, sentence),
+  );
+  watch(store, persistenceText, (sentence) => {
+    setText(work, sentence === null ? '' : `Your songs, leaders and takes: ${sentence}`);
+    work.hidden = sentence === null;
+  });
+  onPressOutside([card, opener], () => {
+    if (!card.hidden) toggle();
+  });
 }
 
 function build(toggle: () => void, empty: () => void): Elements {

@@ -1,7 +1,7 @@
 import { textButton } from '../widgets/button';
 import { OFFERED_LEADERS } from '../files/offered';
 import { duration } from '../store/format';
-import { el, setHidden, setText, combineDisposers } from '../widgets/dom';
+import { el, setHidden, setText } from '../widgets/dom';
 import { howItWorks, opensHowItWorks } from './how-it-works';
 import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
@@ -74,17 +74,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     for (const button of offered.querySelectorAll('button')) button.disabled = state.demo === 'loading';
     setText(about, demoText(state));
   };
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.firstVisit, state.demo, state.reaction, state.leader, state.song],
-      show,
-    ),
-    () => {
-      root.classList.remove('visiting');
-      block.remove();
-    },
-  );
+  watchAll(store, (state) => [state.firstVisit, state.demo, state.reaction, state.leader, state.song], show);
 };
 
 function demoText(state: AppState): string {

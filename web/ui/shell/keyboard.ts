@@ -1,4 +1,3 @@
-import { listen, combineDisposers } from '../widgets/dom';
 import { type Control, faderId } from '../widgets/fader';
 import { barBeside } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
@@ -27,7 +26,7 @@ const DIALOGS = '[role="dialog"], [role="alertdialog"]';
  * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider or a choice that
  * has the focus; Space sets a checkbox, and presses a button in a dialog or one that the focus came to by keyboard.
  */
-export function mountKeyboard(store: Store, services: Services): () => void {
+export function mountKeyboard(store: Store, services: Services): void {
   /** Whether the last press was of a key, and whether it was when the focus came to where it is. */
   let keyIsLast = false;
   let byKey = false;
@@ -64,13 +63,11 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (target !== focused) byKey = keyIsLast;
     focused = target;
   };
-  return combineDisposers(
-    listen(window, 'keydown', onKey),
-    listen(window, 'keyup', onRelease),
-    listen(window, 'focusin', onFocus),
-    listen(window, 'keydown', () => void (keyIsLast = true), { capture: true }),
-    listen(window, 'pointerdown', () => void (keyIsLast = byKey = false), { capture: true }),
-  );
+  window.addEventListener('keydown', onKey);
+  window.addEventListener('keyup', onRelease);
+  window.addEventListener('focusin', onFocus);
+  window.addEventListener('keydown', () => void (keyIsLast = true), { capture: true });
+  window.addEventListener('pointerdown', () => void (keyIsLast = byKey = false), { capture: true });
 }
 
 /** Whether an element does something of its own with a key: typing, or to be chosen or moved. */

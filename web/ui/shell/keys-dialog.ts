@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/button';
-import { el, combineDisposers, rememberFocus, UNTRANSLATED } from '../widgets/dom';
+import { el, rememberFocus, UNTRANSLATED } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from './overlay-menu';
 import { apply, type Store, watch } from '../store/store';
@@ -40,7 +40,6 @@ export const mountKeysDialog: Mount = (root, store) => {
   const close = closeButton(() => {
     apply(store, panelToggled('keys'));
   });
-  const letterKeys = createLetterSwitch(store);
   const rows = KEYS.flatMap(([keys, what]) => [
     el('dt', {}, ...keys.map((key) => el('kbd', { text: key, attributes: UNTRANSLATED }))),
     el('dd', { text: what }),
@@ -49,32 +48,26 @@ export const mountKeysDialog: Mount = (root, store) => {
     'section',
     { class: 'float keys', attributes: { role: 'dialog', 'aria-label': 'Keyboard shortcuts' } },
     el('div', { class: 'head' }, el('h2', { text: 'Keyboard' }), close),
-    letterKeys.element,
+    createLetterSwitch(store),
     el('dl', {}, ...rows),
   );
   dialog.hidden = true;
   root.append(dialog);
   let giveBackFocus = rememberFocus();
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.openPanel === 'keys',
-      (open) => {
-        if (open) giveBackFocus = rememberFocus();
-        else giveBackFocus(dialog);
-        dialog.hidden = !open;
-        if (open) close.focus();
-      },
-    ),
-    letterKeys.dispose,
-    () => {
-      dialog.remove();
+  watch(
+    store,
+    (state) => state.openPanel === 'keys',
+    (open) => {
+      if (open) giveBackFocus = rememberFocus();
+      else giveBackFocus(dialog);
+      dialog.hidden = !open;
+      if (open) close.focus();
     },
   );
 };
 
 /** Whoever speaks to the computer, or hits keys by mistake, can do without letters as shortcuts (WCAG 2.1.4). */
-function createLetterSwitch(store: Store): { readonly element: HTMLElement; readonly dispose: () => void } {
+function createLetterSwitch(store: Store): HTMLElement {
   const box = el('input', {
     attributes: { type: 'checkbox' },
     on: {
@@ -83,14 +76,12 @@ function createLetterSwitch(store: Store): { readonly element: HTMLElement; read
       },
     },
   });
-  return {
-    element: el('label', {}, box, 'Letters, digits and signs are shortcuts'),
-    dispose: watch(
-      store,
-      (state) => state.letterKeys,
-      (on) => {
-        box.checked = on;
-      },
-    ),
-  };
+  watch(
+    store,
+    (state) => state.letterKeys,
+    (on) => {
+      box.checked = on;
+    },
+  );
+  return el('label', {}, box, 'Letters, digits and signs are shortcuts');
 }

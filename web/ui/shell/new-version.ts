@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, setHidden, setText, combineDisposers } from '../widgets/dom';
+import { el, setHidden, setText } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { updateSet } from '../store/actions/view';
@@ -22,18 +22,13 @@ export const mountNewVersion: Mount = (root, store, services) => {
     ),
   );
   root.append(note);
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.update,
-      (update) => {
-        setHidden(note, !update, document.querySelector('.play'));
-        // Set when it is shown, so that it is read out.
-        setText(text, update ? 'A new version is ready.' : '');
-      },
-    ),
-    () => {
-      note.remove();
+  watch(
+    store,
+    (state) => state.update,
+    (update) => {
+      setHidden(note, !update, document.querySelector('.play'));
+      // Set when it is shown, so that it is read out.
+      setText(text, update ? 'A new version is ready.' : '');
     },
   );
 };

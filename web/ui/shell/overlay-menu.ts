@@ -1,6 +1,6 @@
 import { textButton } from '../widgets/button';
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
-import { el, onPressOutside, setAttribute, setText, combineDisposers, UNTRANSLATED } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText, UNTRANSLATED } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { VisibleOverlays } from '../../common/picture';
 import type { Reaction } from '../store/reaction';
@@ -53,30 +53,24 @@ export const mountOverlayMenu: Mount = (root, store, services) => {
   const elements = build(store, services);
   const { corner, button, menu } = elements;
   root.append(corner);
-  const takes = mountTakesButton(corner, store, services);
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.overlays, state.coarse, state.reaction, besideStage(state), state.job === null],
-      (state) => {
-        showState(elements, state);
-      },
-    ),
-    watch(
-      store,
-      (state) => state.openPanel === 'overlays',
-      (open) => {
-        showOpen(elements, open);
-      },
-    ),
-    takes,
-    onPressOutside([menu, button], () => {
-      if (!menu.hidden) apply(store, panelToggled('overlays'));
-    }),
-    () => {
-      corner.remove();
+  mountTakesButton(corner, store, services);
+  watchAll(
+    store,
+    (state) => [state.overlays, state.coarse, state.reaction, besideStage(state), state.job === null],
+    (state) => {
+      showState(elements, state);
     },
   );
+  watch(
+    store,
+    (state) => state.openPanel === 'overlays',
+    (open) => {
+      showOpen(elements, open);
+    },
+  );
+  onPressOutside([menu, button], () => {
+    if (!menu.hidden) apply(store, panelToggled('overlays'));
+  });
 };
 
 function build(store: Store, services: Services): Elements {

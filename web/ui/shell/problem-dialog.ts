@@ -1,7 +1,7 @@
 import { textButton } from '../widgets/button';
 import { RATES } from '../files/import-report';
 import { createDialogPlace } from '../widgets/dialog-place';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { LeaderSource } from '../store/reaction';
 import type { AppState, Problem } from '../store/state';
@@ -12,22 +12,19 @@ import { panelToggled } from '../store/actions/view';
 /** A failure over the stage: what is wrong and what to do. Everything loaded before stays loaded. */
 export const mountProblemDialog: Mount = (root, store, services) => {
   const place = createDialogPlace(root);
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.problem,
-      (problem) => {
-        root.classList.toggle('dimmed', problem !== null);
-        place.close();
-        // First the focus leaves the Cancel button of a job that has failed, so that it does not go back there.
-        queueMicrotask(() => {
-          const state = store.getState();
-          if (problem && state.problem === problem)
-            place.show(build(problem, state, store, services), 'button');
-        });
-      },
-    ),
-    place.close,
+  watch(
+    store,
+    (state) => state.problem,
+    (problem) => {
+      root.classList.toggle('dimmed', problem !== null);
+      place.close();
+      // First the focus leaves the Cancel button of a job that has failed, so that it does not go back there.
+      queueMicrotask(() => {
+        const state = store.getState();
+        if (problem && state.problem === problem)
+          place.show(build(problem, state, store, services), 'button');
+      });
+    },
   );
 };
 

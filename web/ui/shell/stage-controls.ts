@@ -1,5 +1,5 @@
 import { iconButton, textButton } from '../widgets/button';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { coarseMotion, earlierMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
 import { mountOverlayMenu } from './overlay-menu';
@@ -22,13 +22,10 @@ const mountStageTools: Mount = (root, store, services) => {
     class: 'over tools',
     attributes: { role: 'group', 'aria-label': 'Stage tools' },
   });
-  const undo = mountUndo(tools, store, services);
+  mountUndo(tools, store, services);
   const frame = iconButton('icon', 'frame', { label: 'Frame both', title: 'Frame both' }, services.frameBoth);
   tools.append(frame);
   root.append(tools);
-  return combineDisposers(undo, () => {
-    tools.remove();
-  });
 };
 
 /** The dancers' names in their colours; those of ghosts while they are seen. */
@@ -46,7 +43,7 @@ const mountLegend: Mount = (root, store) => {
     earlier,
   );
   root.append(legend);
-  const stop = watchAll(
+  watchAll(
     store,
     (state) => [coarseMotion(state), earlierMotion(state)],
     (state) => {
@@ -54,9 +51,6 @@ const mountLegend: Mount = (root, store) => {
       earlier.hidden = earlierMotion(state) === null;
     },
   );
-  return combineDisposers(stop, () => {
-    legend.remove();
-  });
 };
 
 /** Over the picture: the legend, the cameras, overlays and stage tools. */
@@ -66,16 +60,9 @@ export const mountStageControls: Mount = (root, store, services) => {
   });
   const frame = textButton('btn once', 'Frame both', services.frameBoth);
   const views = el('div', { class: 'over views' }, cameras.element, frame);
-  const legend = mountLegend(root, store, services);
+  mountLegend(root, store, services);
   root.append(views);
-
-  return combineDisposers(
-    legend,
-    mountOverlayMenu(root, store, services),
-    mountStageTools(root, store, services),
-    watch(store, (state) => state.camera, cameras.show),
-    () => {
-      views.remove();
-    },
-  );
+  mountOverlayMenu(root, store, services);
+  mountStageTools(root, store, services);
+  watch(store, (state) => state.camera, cameras.show);
 };

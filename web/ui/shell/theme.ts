@@ -1,7 +1,6 @@
 import type { Theme } from '../../common/picture';
 import { generatedRole } from '../store/roles';
 import { type Store, watch } from '../store/store';
-import { combineDisposers } from '../widgets/dom';
 
 const system = (): MediaQueryList => matchMedia('(prefers-color-scheme: light)');
 
@@ -22,13 +21,11 @@ export function watchSystemTheme(change: (theme: Theme) => void): () => void {
 }
 
 /** Gives the style sheets the theme and the generated dancer's role, which they colour some controls by. */
-export function mountTheme(store: Store): () => void {
-  return combineDisposers(
-    watch(store, (state) => state.theme, showTheme),
-    watch(store, generatedRole, (role) => {
-      document.documentElement.dataset['made'] = role;
-    }),
-  );
+export function mountTheme(store: Store): void {
+  watch(store, (state) => state.theme, showTheme);
+  watch(store, generatedRole, (role) => {
+    document.documentElement.dataset['made'] = role;
+  });
 }
 
 /** Shows a theme on the page and in the browser's own frame. */

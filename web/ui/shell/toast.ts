@@ -1,4 +1,4 @@
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { toastShown } from '../store/actions/notices';
@@ -24,22 +24,15 @@ export const mountToast: Mount = (root, store) => {
   const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   root.append(box, spoken);
   let timer: ReturnType<typeof setTimeout> | undefined;
-  return combineDisposers(
-    watch(
-      store,
-      (state) => state.toast,
-      (toast) => {
-        clearTimeout(timer);
-        box.hidden = toast === null;
-        setText(text, toast ?? '');
-        setText(spoken, toast ?? '');
-        if (toast !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
-      },
-    ),
-    () => {
+  watch(
+    store,
+    (state) => state.toast,
+    (toast) => {
       clearTimeout(timer);
-      box.remove();
-      spoken.remove();
+      box.hidden = toast === null;
+      setText(text, toast ?? '');
+      setText(spoken, toast ?? '');
+      if (toast !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
     },
   );
 };

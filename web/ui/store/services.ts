@@ -145,5 +145,5 @@ export interface Services {
   readonly reload: () => void;
 }
 
-/** Builds a panel into its root; returns its removal. */
-export type Mount = (root: HTMLElement, store: Store, services: Services) => () => void;
+/** Builds a panel into its root, where it stays. */
+export type Mount = (root: HTMLElement, store: Store, services: Services) => void;

@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, listen, setAttribute, combineDisposers, UNTRANSLATED } from '../widgets/dom';
+import { el, setAttribute, UNTRANSLATED } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState, Compare, Letter } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
@@ -34,19 +34,14 @@ export const mountCompareSwitch =
     modes.root.hidden = !drawn;
     const bar = el('div', { class: 'over compare-switch' }, letters.root, modes.root);
     root.append(bar);
-    return combineDisposers(
-      flipByKey(store),
-      watchAll(
-        store,
-        (state) => [otherTake(state), state.letter, state.compare],
-        (state) => {
-          bar.hidden = otherTake(state) === null;
-          letters.show(state);
-          modes.show(state);
-        },
-      ),
-      () => {
-        bar.remove();
+    flipByKey(store);
+    watchAll(
+      store,
+      (state) => [otherTake(state), state.letter, state.compare],
+      (state) => {
+        bar.hidden = otherTake(state) === null;
+        letters.show(state);
+        modes.show(state);
       },
     );
   };
@@ -103,26 +98,24 @@ function createModes(store: Store): Group {
 }
 
 /** Flips the two takes when B is pressed, and back when it is released after a long press. */
-function flipByKey(store: Store): () => void {
+function flipByKey(store: Store): void {
   let pressedAt: number | null = null;
   const isB = ({ key }: KeyboardEvent): boolean => key.toLowerCase() === 'b';
-  return combineDisposers(
-    listen(window, 'keydown', (event) => {
-      if (!isB(event) || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (event.repeat || pressedAt !== null || isTyping(event) || !store.getState().letterKeys) return;
-      const before = store.getState().reaction;
-      apply(store, takesSwapped());
-      if (store.getState().reaction !== before) pressedAt = event.timeStamp;
-    }),
-    listen(window, 'keyup', (event) => {
-      if (!isB(event) || pressedAt === null) return;
-      if (event.timeStamp - pressedAt >= HOLD_MS) apply(store, takesSwapped());
-      pressedAt = null;
-    }),
-    listen(window, 'blur', () => {
-      pressedAt = null;
-    }),
-  );
+  window.addEventListener('keydown', (event) => {
+    if (!isB(event) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.repeat || pressedAt !== null || isTyping(event) || !store.getState().letterKeys) return;
+    const before = store.getState().reaction;
+    apply(store, takesSwapped());
+    if (store.getState().reaction !== before) pressedAt = event.timeStamp;
+  });
+  window.addEventListener('keyup', (event) => {
+    if (!isB(event) || pressedAt === null) return;
+    if (event.timeStamp - pressedAt >= HOLD_MS) apply(store, takesSwapped());
+    pressedAt = null;
+  });
+  window.addEventListener('blur', () => {
+    pressedAt = null;
+  });
 }
 
 /** Whether the key goes to a field that takes letters. */

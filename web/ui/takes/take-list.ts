@@ -18,7 +18,6 @@ export class TakeList {
   #rows: ReadonlyMap<string, TakeRow> = new Map();
   /** The take whose row Tab leads to: the one that had the focus last, else the one on the stage. */
   #current: string | null = null;
-  readonly #stopFading: () => void;
 
   /** @param heading names the list, and gets the focus when the last take is deleted */
   constructor(store: Store, heading: HTMLElement) {
@@ -42,7 +41,7 @@ export class TakeList {
         },
       },
     });
-    this.#stopFading = fadeEnds(this.root);
+    fadeEnds(this.root);
   }
 
   /** Shows the takes of this state; a deleted row that had the focus hands it to the row in its place, the last one to the heading. */
@@ -72,10 +71,6 @@ export class TakeList {
     const bottom = top + row.offsetHeight + 2 * faded;
     if (top < list.scrollTop) list.scrollTop = top;
     else if (bottom > list.scrollTop + list.clientHeight) list.scrollTop = bottom - list.clientHeight;
-  }
-
-  dispose(): void {
-    this.#stopFading();
   }
 
   /** The take that moves into the place of the current one, which was deleted. */
@@ -139,20 +134,13 @@ export class TakeList {
   }
 }
 
-/** Fades the ends of a list beyond which it can be scrolled; returns a function that stops it. */
-function fadeEnds(list: HTMLElement): () => void {
+/** Fades the ends of a list beyond which it can be scrolled. */
+function fadeEnds(list: HTMLElement): void {
   const fade = (): void => {
     list.classList.toggle('above', list.scrollTop > 1);
     list.classList.toggle('below', list.scrollTop + list.clientHeight < list.scrollHeight - 1);
   };
-  const sizes = new ResizeObserver(fade);
-  sizes.observe(list);
+  new ResizeObserver(fade).observe(list);
   list.addEventListener('scroll', fade, { passive: true });
-  const rows = new MutationObserver(fade);
-  rows.observe(list, { childList: true });
-  return () => {
-    sizes.disconnect();
-    rows.disconnect();
-    list.removeEventListener('scroll', fade);
-  };
+  new MutationObserver(fade).observe(list, { childList: true });
 }

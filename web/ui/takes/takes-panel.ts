@@ -1,13 +1,5 @@
 import { textButton, closeButton } from '../widgets/button';
-import {
-  el,
-  listen,
-  setAttribute,
-  setHidden,
-  setText,
-  combineDisposers,
-  rememberFocus,
-} from '../widgets/dom';
+import { el, setAttribute, setHidden, setText, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
@@ -38,7 +30,7 @@ export const mountTakes: Mount = (root, store, services) => {
     coming,
     empty,
   );
-  const undo = mountUndo(head, store, services);
+  mountUndo(head, store, services);
   head.append(close);
   root.append(section);
 
@@ -53,42 +45,35 @@ export const mountTakes: Mount = (root, store, services) => {
     setText(count, all > 1 ? String(all) : '');
     setHidden(clear, !hasTakesToClear(state), heading);
   };
-  return combineDisposers(
-    watchAll(
-      store,
-      ({ takes, reaction, other, letter, leader, song, manifest, restoring }) => [
-        restoring,
-        takes,
-        reaction,
-        other,
-        letter,
-        leader,
-        song,
-        manifest,
-      ],
-      show,
-    ),
-    watchAll(
-      store,
-      (state) => [takeOnStage(state)?.id, state.takes.length],
-      (state) => {
-        list.reveal(takeOnStage(state)?.id);
-      },
-    ),
-    watchSheet(section, close, store),
-    closeOutside(section, store),
-    undo,
-    () => {
-      list.dispose();
-      section.remove();
+  watchAll(
+    store,
+    ({ takes, reaction, other, letter, leader, song, manifest, restoring }) => [
+      restoring,
+      takes,
+      reaction,
+      other,
+      letter,
+      leader,
+      song,
+      manifest,
+    ],
+    show,
+  );
+  watchAll(
+    store,
+    (state) => [takeOnStage(state)?.id, state.takes.length],
+    (state) => {
+      list.reveal(takeOnStage(state)?.id);
     },
   );
+  watchSheet(section, close, store);
+  closeOutside(section, store);
 };
 
-/** Opens and closes the sheet of the phone; returns a function that stops it. */
-function watchSheet(section: HTMLElement, close: HTMLElement, store: Store): () => void {
+/** Opens and closes the sheet of the phone. */
+function watchSheet(section: HTMLElement, close: HTMLElement, store: Store): void {
   let giveBackFocus = rememberFocus();
-  return watch(
+  watch(
     store,
     (state) => state.openPanel === 'takes',
     (open) => {
@@ -148,17 +133,12 @@ export const mountTakesButton: Mount = (root, store) => {
     count,
   );
   root.append(button);
-  return combineDisposers(
-    watchAll(
-      store,
-      ({ takes, openPanel }) => [takes.length, openPanel === 'takes'],
-      ({ takes, openPanel }) => {
-        setText(count, takes.length > 0 ? String(takes.length) : '');
-        button.setAttribute('aria-expanded', String(openPanel === 'takes'));
-      },
-    ),
-    () => {
-      button.remove();
+  watchAll(
+    store,
+    ({ takes, openPanel }) => [takes.length, openPanel === 'takes'],
+    ({ takes, openPanel }) => {
+      setText(count, takes.length > 0 ? String(takes.length) : '');
+      button.setAttribute('aria-expanded', String(openPanel === 'takes'));
     },
   );
 };
@@ -175,9 +155,9 @@ function createProjectButton(store: Store): HTMLElement {
   );
 }
 
-/** Closes the sheet when the pointer goes down outside it; returns a function that stops it. */
-function closeOutside(section: HTMLElement, store: Store): () => void {
-  return listen(window, 'pointerdown', ({ target }) => {
+/** Closes the sheet when the pointer goes down outside it. */
+function closeOutside(section: HTMLElement, store: Store): void {
+  window.addEventListener('pointerdown', ({ target }) => {
     const outside =
       target instanceof Element && !section.contains(target) && !target.closest('.takes-button');
     if (outside && store.getState().openPanel === 'takes') apply(store, panelToggled('takes'));

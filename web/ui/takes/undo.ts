@@ -1,5 +1,4 @@
 import { iconButton, setDisabled } from '../widgets/button';
-import { listen, combineDisposers } from '../widgets/dom';
 import type { IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
 import { apply, type Store, watchAll } from '../store/store';
@@ -15,25 +14,19 @@ export const mountUndo: Mount = (root, store, services) => {
     apply(store, redone());
   });
   root.append(undo, redo);
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.history, state.asked],
-      (state) => {
-        setDisabled(undo, state.history.past.length === 0 && askedLast(state) === null);
-        setDisabled(redo, state.history.future.length === 0);
-      },
-    ),
-    () => {
-      undo.remove();
-      redo.remove();
+  watchAll(
+    store,
+    (state) => [state.history, state.asked],
+    (state) => {
+      setDisabled(undo, state.history.past.length === 0 && askedLast(state) === null);
+      setDisabled(redo, state.history.future.length === 0);
     },
   );
 };
 
 /** Undo and redo by Ctrl or Command with Z, Shift Z and Y; text fields have their own undo. */
-export function mountUndoKeys(store: Store, services: Pick<Services, 'undo'>): () => void {
-  return listen(window, 'keydown', (event) => {
+export function mountUndoKeys(store: Store, services: Pick<Services, 'undo'>): void {
+  window.addEventListener('keydown', (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
     if (event.target instanceof Element && event.target.matches('input:not([type="range"]), textarea'))
       return;

@@ -4,7 +4,7 @@ import { barAt, countedBeats, countingOf, isOf, tempoText } from '../store/count
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { setDisabled, textButton } from '../widgets/button';
-import { combineDisposers, el, onPressOutside, setAttribute, setText } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText } from '../widgets/dom';
 import { radioGroup } from '../widgets/radio-group';
 
 const RATES = [
@@ -18,39 +18,34 @@ const BARS = [
 ] as const;
 
 /** Bar and count at the playhead; a click opens what is counted and how. */
-export function createCountMenu(store: Store): {
-  readonly element: HTMLElement;
-  readonly dispose: () => void;
-} {
+export function createCountMenu(store: Store): HTMLElement {
   const toggle = (): void => {
     apply(store, panelToggled('counting'));
   };
   const { button, showPlace } = createButton(toggle);
   const { menu, showChoices } = createMenu(store);
   const element = el('div', { class: 'count-corner' }, button, menu);
-  const dispose = combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.playback.time, state.song, state.countings, state.shift, state.leader],
-      showPlace,
-    ),
-    watchAll(store, (state) => [state.song, state.countings, state.settingOne], showChoices),
-    watch(
-      store,
-      (state) => state.openPanel === 'counting',
-      (open) => {
-        const focusInside = menu.contains(document.activeElement);
-        menu.hidden = !open;
-        button.setAttribute('aria-expanded', String(open));
-        if (open) menu.querySelector('button')?.focus();
-        else if (focusInside) button.focus();
-      },
-    ),
-    onPressOutside([element], () => {
-      if (!menu.hidden) toggle();
-    }),
+  watchAll(
+    store,
+    (state) => [state.playback.time, state.song, state.countings, state.shift, state.leader],
+    showPlace,
   );
-  return { element, dispose };
+  watchAll(store, (state) => [state.song, state.countings, state.settingOne], showChoices);
+  watch(
+    store,
+    (state) => state.openPanel === 'counting',
+    (open) => {
+      const focusInside = menu.contains(document.activeElement);
+      menu.hidden = !open;
+      button.setAttribute('aria-expanded', String(open));
+      if (open) menu.querySelector('button')?.focus();
+      else if (focusInside) button.focus();
+    },
+  );
+  onPressOutside([element], () => {
+    if (!menu.hidden) toggle();
+  });
+  return element;
 }
 
 function createButton(toggle: () => void): {

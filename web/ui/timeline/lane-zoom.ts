@@ -1,4 +1,4 @@
-import { el, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setVariable } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { onPinch } from '../widgets/pinch';
 import { danceDuration } from '../store/selectors';
@@ -15,29 +15,27 @@ const LINE_PIXELS = 16;
 
 /**
  * Zoom and scroll of the lanes: wheel and pinch zoom around the pointer, wheel and scroll bar scroll, and the lanes
- * follow the playhead. Returns a function that stops it.
+ * follow the playhead.
  */
 export function mountLaneZoom(
   store: Store,
   lanes: HTMLElement,
   tracks: HTMLElement,
   scale: () => TimeScale,
-): () => void {
+): void {
   const timeAt = (x: number): number => scale().time(x - tracks.getBoundingClientRect().left);
-  return combineDisposers(
-    followPlayhead(store),
-    onWheel(store, lanes, timeAt, (pixels) => {
-      const { from, to, width } = scale();
-      apply(store, zoomSet(scrolled({ from, to }, duration(store), (pixels / width) * (to - from))));
-    }),
-    onPinch(lanes, (middle, factor, by) => {
-      if (duration(store) === 0) return;
-      const larger = zoomed(visibleSpan(store.getState()), duration(store), factor, timeAt(middle));
-      const { width } = scale();
-      apply(store, zoomSet(scrolled(larger, duration(store), (-by / width) * (larger.to - larger.from))));
-    }),
-    mountScrollBar(store, lanes),
-  );
+  followPlayhead(store);
+  onWheel(store, lanes, timeAt, (pixels) => {
+    const { from, to, width } = scale();
+    apply(store, zoomSet(scrolled({ from, to }, duration(store), (pixels / width) * (to - from))));
+  });
+  onPinch(lanes, (middle, factor, by) => {
+    if (duration(store) === 0) return;
+    const larger = zoomed(visibleSpan(store.getState()), duration(store), factor, timeAt(middle));
+    const { width } = scale();
+    apply(store, zoomSet(scrolled(larger, duration(store), (-by / width) * (larger.to - larger.from))));
+  });
+  mountScrollBar(store, lanes);
 }
 
 function duration(store: Store): number {
@@ -50,7 +48,7 @@ function onWheel(
   lanes: HTMLElement,
   timeAt: (x: number) => number,
   scroll: (pixels: number) => void,
-): () => void {
+): void {
   const listener = (event: WheelEvent): void => {
     if (duration(store) === 0) return;
     const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PIXELS : 1;
@@ -65,51 +63,46 @@ function onWheel(
     scroll((Math.abs(event.deltaX) > Math.abs(event.deltaY) ? event.deltaX : event.deltaY) * unit);
   };
   lanes.addEventListener('wheel', listener, { passive: false });
-  return () => {
-    lanes.removeEventListener('wheel', listener);
-  };
 }
 
 /** The bar under the lanes while they show a part of the dance. */
-function mountScrollBar(store: Store, lanes: HTMLElement): () => void {
+function mountScrollBar(store: Store, lanes: HTMLElement): void {
   const thumb = el('div', { class: 'thumb' });
   const bar = el('div', { class: 'scroll', attributes: { 'aria-hidden': 'true' } }, thumb);
   lanes.append(bar);
   let before = { from: 0, to: 0 };
-  return combineDisposers(
-    draggable(thumb, {
-      begin: () => {
-        before = visibleSpan(store.getState());
-        return true;
-      },
-      move: (distance) => {
-        const whole = duration(store);
-        apply(store, zoomSet(scrolled(before, whole, (distance / bar.clientWidth) * whole)));
-      },
-      drop: () => undefined,
-      click: () => undefined,
-      cancel: () => {
-        apply(store, zoomSet(before));
-      },
-    }),
-    watchAll(
-      store,
-      (state) => [state.zoom, state.leader, state.song],
-      (state) => {
-        const { from, to } = visibleSpan(state);
-        const whole = danceDuration(state);
-        bar.hidden = state.zoom === null;
-        setVariable(thumb, '--from', whole > 0 ? from / whole : 0);
-        setVariable(thumb, '--span', whole > 0 ? (to - from) / whole : 1);
-      },
-    ),
+  draggable(thumb, {
+    begin: () => {
+      before = visibleSpan(store.getState());
+      return true;
+    },
+    move: (distance) => {
+      const whole = duration(store);
+      apply(store, zoomSet(scrolled(before, whole, (distance / bar.clientWidth) * whole)));
+    },
+    drop: () => undefined,
+    click: () => undefined,
+    cancel: () => {
+      apply(store, zoomSet(before));
+    },
+  });
+  watchAll(
+    store,
+    (state) => [state.zoom, state.leader, state.song],
+    (state) => {
+      const { from, to } = visibleSpan(state);
+      const whole = danceDuration(state);
+      bar.hidden = state.zoom === null;
+      setVariable(thumb, '--from', whole > 0 ? from / whole : 0);
+      setVariable(thumb, '--span', whole > 0 ? (to - from) / whole : 1);
+    },
   );
 }
 
 /** Scrolls to the playhead when it leaves the shown part; while it plays outside of it, the lanes stay. */
-function followPlayhead(store: Store): () => void {
+function followPlayhead(store: Store): void {
   let last = store.getState().playback.time;
-  return watch(
+  watch(
     store,
     (state) => state.playback.time,
     (time, { zoom, playback }) => {

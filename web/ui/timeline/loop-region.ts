@@ -1,4 +1,4 @@
-import { el, setAttribute, setHidden, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setAttribute, setHidden, setVariable } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { clockTime } from '../store/format';
 import { beatBeside, countedBeats, snapped } from '../store/counting';
@@ -41,7 +41,6 @@ export class LoopRegion {
   };
   /** The region while it is being dragged; it is set when the pointer is up. */
   #dragged: Span | null = null;
-  readonly dispose: () => void;
 
   constructor(store: Store, services: Services, places: LoopPlaces) {
     this.#store = store;
@@ -53,21 +52,20 @@ export class LoopRegion {
     };
     // The first click on the ruler may move the playhead's handle under the pointer.
     for (const place of [ruler, overlay, playhead]) place.addEventListener('dblclick', clear);
-    this.dispose = combineDisposers(
-      watchAll(
-        store,
-        ({ playback, zoom }) => [playback.region, playback.loop, zoom],
-        () => {
-          this.draw();
-        },
-      ),
-      this.#dragOnRuler(services),
-      ...ENDS.map((end) => this.#dragHandle(end)),
+    watchAll(
+      store,
+      ({ playback, zoom }) => [playback.region, playback.loop, zoom],
+      () => {
+        this.draw();
+      },
     );
-    for (const end of ENDS)
+    this.#dragOnRuler(services);
+    for (const end of ENDS) {
+      this.#dragHandle(end);
       this.#handles[end].addEventListener('keydown', (event) => {
         this.#moveByKey(end, event);
       });
+    }
   }
 
   /** Places band and handles. */
@@ -108,9 +106,9 @@ export class LoopRegion {
     this.draw();
   }
 
-  #dragOnRuler(services: Services): () => void {
+  #dragOnRuler(services: Services): void {
     let start = 0;
-    return draggable(this.#places.ruler, {
+    draggable(this.#places.ruler, {
       begin: (event) => {
         start = this.#beatAt(event);
         return danceDuration(this.#store.getState()) > 0;
@@ -138,8 +136,8 @@ export class LoopRegion {
     return { from: start, to: beatBeside(countedBeats(this.#store.getState()), start, 1) ?? end };
   }
 
-  #dragHandle(end: End): () => void {
-    return draggable(this.#handles[end], {
+  #dragHandle(end: End): void {
+    draggable(this.#handles[end], {
       move: (_, event) => {
         const { region } = this.#store.getState().playback;
         if (region) this.#drag(ordered({ ...region, [end]: this.#beatAt(event) }));

@@ -1,4 +1,4 @@
-import { el, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setVariable } from '../widgets/dom';
 import { DRAG_THRESHOLD_PX } from '../widgets/drag';
 import { barAt, countedBeats } from '../store/counting';
 import { danceDuration } from '../store/selectors';
@@ -24,7 +24,6 @@ export class Playhead {
   #pointer: number | null = null;
   /** Where a finger came down, until it is clear whether it scrolls the page or moves the playhead; CSS pixels. */
   #undecided: { readonly x: number; readonly y: number } | null = null;
-  readonly dispose: () => void;
 
   constructor(lanes: HTMLElement, store: Store, services: Services, scale: () => TimeScale) {
     this.#store = store;
@@ -38,25 +37,23 @@ export class Playhead {
       },
       this.#line,
     );
-    this.dispose = combineDisposers(
-      this.#listen(lanes),
-      watchAll(
-        store,
-        ({ playback, zoom, leader, song, shift, countings }) => [
-          playback.time,
-          playback.playing,
-          zoom,
-          leader,
-          song,
-          shift,
-          countings,
-        ],
-        (state) => {
-          this.draw();
-          // Screen readers read out each change of the slider that has the focus, over the music.
-          if (!state.playback.playing || this.root !== document.activeElement) this.#describe(state);
-        },
-      ),
+    this.#listen(lanes);
+    watchAll(
+      store,
+      ({ playback, zoom, leader, song, shift, countings }) => [
+        playback.time,
+        playback.playing,
+        zoom,
+        leader,
+        song,
+        shift,
+        countings,
+      ],
+      (state) => {
+        this.draw();
+        // Screen readers read out each change of the slider that has the focus, over the music.
+        if (!state.playback.playing || this.root !== document.activeElement) this.#describe(state);
+      },
     );
   }
 
@@ -82,26 +79,19 @@ export class Playhead {
     this.root.setAttribute('aria-valuetext', `${time.toFixed(1)} seconds${counted}`);
   }
 
-  #listen(lanes: HTMLElement): () => void {
-    const listeners = {
-      pointerdown: (event: PointerEvent) => {
-        this.#down(event);
-      },
-      pointermove: (event: PointerEvent) => {
-        this.#move(event);
-      },
-      pointerup: (event: PointerEvent) => {
-        this.#up(event);
-      },
-      pointercancel: (event: PointerEvent) => {
-        if (event.pointerId === this.#pointer) this.#pointer = null;
-      },
-    } as const;
-    const types = Object.keys(listeners) as (keyof typeof listeners)[];
-    for (const type of types) lanes.addEventListener(type, listeners[type]);
-    return () => {
-      for (const type of types) lanes.removeEventListener(type, listeners[type]);
-    };
+  #listen(lanes: HTMLElement): void {
+    lanes.addEventListener('pointerdown', (event) => {
+      this.#down(event);
+    });
+    lanes.addEventListener('pointermove', (event) => {
+      this.#move(event);
+    });
+    lanes.addEventListener('pointerup', (event) => {
+      this.#up(event);
+    });
+    lanes.addEventListener('pointercancel', (event) => {
+      if (event.pointerId === this.#pointer) this.#pointer = null;
+    });
   }
 
   #down(event: PointerEvent): void {

@@ -1,4 +1,4 @@
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
@@ -40,7 +40,6 @@ export class ShiftHandle {
   readonly #store: Store;
   readonly #options: ShiftHandleOptions;
   #hideTimer: ReturnType<typeof setTimeout> | undefined;
-  readonly dispose: () => void;
 
   constructor(store: Store, services: Services, options: ShiftHandleOptions) {
     this.#store = store;
@@ -52,9 +51,7 @@ export class ShiftHandle {
     this.handle.addEventListener('keydown', (event) => {
       this.#moveByKey(event);
     });
-    this.dispose = combineDisposers(this.#draggable(services), () => {
-      clearTimeout(this.#hideTimer);
-    });
+    this.#listenToDrags(services);
   }
 
   /** Tells screen readers the shift and its range, frames. */
@@ -68,12 +65,12 @@ export class ShiftHandle {
     this.handle.setAttribute('aria-valuetext', shiftText(shift, state));
   }
 
-  #draggable(services: Services): () => void {
+  #listenToDrags(services: Services): void {
     let start = 0;
     this.handle.addEventListener('pointerdown', (event) => {
       start = event.clientX;
     });
-    return draggable(this.handle, {
+    draggable(this.handle, {
       begin: () => danceDuration(this.#store.getState()) > 0,
       move: (distance) => {
         if (!this.#canShift()) return;

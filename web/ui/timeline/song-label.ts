@@ -11,7 +11,6 @@ interface SongLabel {
   readonly root: HTMLElement;
   /** Shows the shift now, and how well the song fits in a task of its own: with a long dance it takes long to find. */
   readonly show: (state: AppState) => void;
-  readonly dispose: () => void;
 }
 
 /** @param handle the slider of the shift, which gets the focus of a button that goes */
@@ -61,9 +60,6 @@ export function createSongLabel(store: Store, handle: HTMLElement): SongLabel {
       back.title = `The song is moved by ${shiftText(shift, state)}. Click to move it back.`;
       clearTimeout(timer);
       timer = setTimeout(showFit);
-    },
-    dispose: () => {
-      clearTimeout(timer);
     },
   };
 }

@@ -5,7 +5,7 @@ import { DancerLanes } from './lanes/dancer-lanes';
 import { reactorMotion } from '../store/reactor-motion';
 import { generatedRole } from '../store/roles';
 import { countedBeats } from '../store/counting';
-import { el, combineDisposers } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { mountLaneZoom } from './lane-zoom';
 import { LoopRegion } from './loop-region';
 import { Playhead } from './playhead';
@@ -26,7 +26,7 @@ type MountLanes = (
   store: Store,
   services: Services,
   shown: (state: AppState) => Span,
-) => () => void;
+) => void;
 
 /**
  * The timeline: ruler, song, leader and reactor over the same seconds, more lanes below in the given order, loop region and playhead
@@ -37,7 +37,7 @@ export function mountTimeline(
   store: Store,
   services: Services,
   moreLanes: readonly MountLanes[],
-): () => void {
+): void {
   const scale = (): TimeScale => timeScale(visibleSpan(store.getState()), dancers.width);
   /** The shift of the song while it is being dragged, frames. */
   let draggedShift: number | null = null;
@@ -57,7 +57,7 @@ export function mountTimeline(
     ...[ruler.label, ruler.root, songLabel.root, songLane.root, ...dancers.elements],
   );
   root.append(lanes);
-  const mounted = moreLanes.map((mount) => mount(lanes, store, services, visibleSpan));
+  for (const mount of moreLanes) mount(lanes, store, services, visibleSpan);
   const playhead = new Playhead(lanes, store, services, scale);
   const overlay = el('div', { class: 'loop-place' });
   lanes.append(playhead.root, overlay);
@@ -81,41 +81,30 @@ export function mountTimeline(
     loop.draw();
     playhead.draw();
   });
-  return combineDisposers(
-    onPixelSize(lanes, redraw.now),
-    ...followMotions(store, dancers),
-    watchAll(store, drawnParts, redraw.request),
-    watch(
-      store,
-      (state) => state.job,
-      (_, state) => {
-        dancers.showProgress(state);
-      },
-    ),
-    followSettingOne(store, lanes),
-    watch(
-      store,
-      (state) => state.playback.time,
-      (time) => {
-        songLane.showPlayed(time, scale());
-      },
-    ),
-    mountLaneZoom(store, lanes, playhead.root, scale),
-    loop.dispose,
-    playhead.dispose,
-    ...mounted,
-    songLane.dispose,
-    songLabel.dispose,
-    redraw.cancel,
-    () => {
-      lanes.remove();
+  onPixelSize(lanes, redraw.now);
+  followMotions(store, dancers);
+  watchAll(store, drawnParts, redraw.request);
+  watch(
+    store,
+    (state) => state.job,
+    (_, state) => {
+      dancers.showProgress(state);
     },
   );
+  followSettingOne(store, lanes);
+  watch(
+    store,
+    (state) => state.playback.time,
+    (time) => {
+      songLane.showPlayed(time, scale());
+    },
+  );
+  mountLaneZoom(store, lanes, playhead.root, scale);
 }
 
 /** Marks the lanes while the next click says where the "1" is. */
-function followSettingOne(store: Store, lanes: HTMLElement): () => void {
-  return watch(
+function followSettingOne(store: Store, lanes: HTMLElement): void {
+  watch(
     store,
     (state) => state.settingOne,
     (on) => {
@@ -125,16 +114,15 @@ function followSettingOne(store: Store, lanes: HTMLElement): () => void {
 }
 
 /** Hands the motions of both dancers to their lanes. */
-function followMotions(store: Store, lanes: DancerLanes): (() => void)[] {
-  return ROLES.map((role) =>
+function followMotions(store: Store, lanes: DancerLanes): void {
+  for (const role of ROLES)
     watchAll(
       store,
       (state) => [laneMotion(state, role), state.manifest],
       (state) => {
         lanes.setMotion(role, laneMotion(state, role), state.manifest);
       },
-    ),
-  );
+    );
 }
 
 /** The motion that a lane shows: of the generated dancer the finished one, since a preview is there for a moment. */
@@ -155,17 +143,12 @@ function drawnParts(state: AppState): readonly unknown[] {
 function oncePerFrame(draw: () => void): {
   readonly now: () => void;
   readonly request: () => void;
-  readonly cancel: () => void;
 } {
   let frame = 0;
-  const cancel = (): void => {
-    cancelAnimationFrame(frame);
-  };
   return {
     now: draw,
-    cancel,
     request: () => {
-      cancel();
+      cancelAnimationFrame(frame);
       frame = requestAnimationFrame(draw);
     },
   };

@@ -1,5 +1,5 @@
 import { iconButton, textButton } from '../widgets/button';
-import { el, setHidden, setText, combineDisposers, UNTRANSLATED } from '../widgets/dom';
+import { el, setHidden, setText, UNTRANSLATED } from '../widgets/dom';
 import { clockTime, rate } from '../store/format';
 import { icon } from '../widgets/icons';
 import { isReading, danceDuration, firstNote } from '../store/selectors';
@@ -9,12 +9,6 @@ import { apply, type Store, watch, watchAll } from '../store/store';
 import { playbackSet, SPEEDS } from '../store/actions/view';
 import { createCountMenu } from './count-menu';
 import { createZoomControl } from './zoom-control';
-
-/** A control of the transport with what takes it out of the store's watchers. */
-interface Control<E extends HTMLElement = HTMLElement> {
-  readonly element: E;
-  readonly dispose: () => void;
-}
 
 /** The transport: play, jump to the ends, time and count, speed, loop, a note about the files, and zoom. */
 export const mountTransport: Mount = (root, store, services) => {
@@ -35,50 +29,43 @@ export const mountTransport: Mount = (root, store, services) => {
   const speed = createSpeedMenu(store);
   const loop = createLoopButton(store);
   const note = el('span', { class: 'file-note' });
-  const halfRate = createHalfRateButton(store, services, play.element);
-  const zoom = createZoomControl(store);
+  const halfRate = createHalfRateButton(store, services, play);
   const line = el(
     'div',
     { class: 'transport', attributes: { role: 'group', 'aria-label': 'Transport' } },
     start,
-    play.element,
+    play,
     end,
-    clock.element,
-    count.element,
-    speed.element,
-    loop.element,
+    clock,
+    count,
+    speed,
+    loop,
     el('span', { class: 'grow' }),
     note,
-    halfRate.element,
-    zoom.root,
+    halfRate,
+    createZoomControl(store),
   );
   root.append(line);
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [state.leader, state.song],
-      (state) => {
-        const empty = danceDuration(state) === 0;
-        for (const button of [start, play.element, end, loop.element]) button.disabled = empty;
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [
-        state.leader,
-        state.song,
-        state.shift,
-        state.reaction?.unfamiliarity,
-        state.manifest,
-        ...isReading(state),
-      ],
-      (state) => {
-        showNote(note, state);
-      },
-    ),
-    ...[play, clock, count, speed, loop, halfRate, zoom].map(({ dispose }) => dispose),
-    () => {
-      line.remove();
+  watchAll(
+    store,
+    (state) => [state.leader, state.song],
+    (state) => {
+      const empty = danceDuration(state) === 0;
+      for (const button of [start, play, end, loop]) button.disabled = empty;
+    },
+  );
+  watchAll(
+    store,
+    (state) => [
+      state.leader,
+      state.song,
+      state.shift,
+      state.reaction?.unfamiliarity,
+      state.manifest,
+      ...isReading(state),
+    ],
+    (state) => {
+      showNote(note, state);
     },
   );
 };
@@ -105,7 +92,7 @@ function createHalfRateButton(
   store: Store,
   { rereadLeader }: Services,
   next: HTMLElement,
-): Control<HTMLButtonElement> {
+): HTMLButtonElement {
   const element = textButton(
     'half-rate',
     '',
@@ -116,16 +103,16 @@ function createHalfRateButton(
     },
     { title: 'The leader moves faster than people do: the frame rate of the file may be wrong' },
   );
-  const dispose = watch(store, halfRateOf, (fps) => {
+  watch(store, halfRateOf, (fps) => {
     setHidden(element, fps === null, next);
     setText(element, fps === null ? '' : `Leader too fast? Read it at ${rate(fps)} fps`);
   });
-  return { element, dispose };
+  return element;
 }
 
-function createPlayButton(store: Store, { togglePlay }: Services): Control<HTMLButtonElement> {
+function createPlayButton(store: Store, { togglePlay }: Services): HTMLButtonElement {
   const element = iconButton('play', 'play', { label: 'Play', title: 'Play or pause (Space)' }, togglePlay);
-  const dispose = watch(
+  watch(
     store,
     (state) => state.playback.playing,
     (playing) => {
@@ -133,15 +120,15 @@ function createPlayButton(store: Store, { togglePlay }: Services): Control<HTMLB
       element.setAttribute('aria-label', playing ? 'Pause' : 'Play');
     },
   );
-  return { element, dispose };
+  return element;
 }
 
 /** Time of the playhead and duration of the dance. */
-function createClock(store: Store): Control {
+function createClock(store: Store): HTMLElement {
   const now = el('span', { class: 'now' });
   const of = el('span', { class: 'of' });
   const element = el('div', { class: 'clock', attributes: UNTRANSLATED }, now, ' ', of);
-  const dispose = watchAll(
+  watchAll(
     store,
     (state) => [state.playback.time, state.leader, state.song],
     (state) => {
@@ -149,10 +136,10 @@ function createClock(store: Store): Control {
       setText(of, `/ ${clockTime(danceDuration(state))}`);
     },
   );
-  return { element, dispose };
+  return element;
 }
 
-function createSpeedMenu(store: Store): Control {
+function createSpeedMenu(store: Store): HTMLElement {
   const element = el(
     'select',
     {
@@ -166,22 +153,22 @@ function createSpeedMenu(store: Store): Control {
     },
     ...SPEEDS.map((value) => el('option', { text: `${value}×`, attributes: { value } })),
   );
-  const dispose = watch(
+  watch(
     store,
     (state) => state.playback.speed,
     (value) => {
       element.value = String(value);
     },
   );
-  return { element, dispose };
+  return element;
 }
 
-function createLoopButton(store: Store): Control<HTMLButtonElement> {
+function createLoopButton(store: Store): HTMLButtonElement {
   const title = 'Play again from the start at the end (L). Drag on the ruler to loop a part';
   const element = iconButton('icon', 'loop', { label: 'Loop', title }, () => {
     apply(store, playbackSet({ loop: !store.getState().playback.loop }));
   });
-  const dispose = watchAll(
+  watchAll(
     store,
     (state) => [state.playback.loop, state.playback.region],
     ({ playback: { loop, region } }) => {
@@ -190,5 +177,5 @@ function createLoopButton(store: Store): Control<HTMLButtonElement> {
       element.setAttribute('aria-label', part);
     },
   );
-  return { element, dispose };
+  return element;
 }

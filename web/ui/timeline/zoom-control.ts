@@ -11,10 +11,7 @@ export const ZOOM_STEP = 1.5;
 const SLIDER_STEPS = 100;
 
 /** Buttons and a slider for the zoom of the lanes, and one that shows the whole dance. */
-export function createZoomControl(store: Store): {
-  readonly root: HTMLElement;
-  readonly dispose: () => void;
-} {
+export function createZoomControl(store: Store): HTMLElement {
   const out = iconButton('icon', 'minus', { label: 'Zoom out', title: 'Zoom out (−)' }, () => {
     apply(store, zoomedBy(1 / ZOOM_STEP));
   });
@@ -46,23 +43,20 @@ export function createZoomControl(store: Store): {
       },
     },
   });
-  const root = el('div', { class: 'zoom-control desk' }, out, slider, into, fit);
-  return {
-    root,
-    dispose: watchAll(
-      store,
-      (state) => [state.zoom, state.leader, state.song],
-      (state) => {
-        const whole = danceDuration(state);
-        const max = largestMagnification(whole);
-        const times = magnification(visibleSpan(state), whole);
-        const part = max > 1 ? Math.log(times) / Math.log(max) : 0;
-        slider.value = String(Math.round(part * SLIDER_STEPS));
-        slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);
-        slider.disabled = max <= 1 || whole === 0;
-        setDisabled(into, slider.disabled || part > 1 - 1e-6);
-        for (const each of [out, fit]) setDisabled(each, state.zoom === null);
-      },
-    ),
-  };
+  watchAll(
+    store,
+    (state) => [state.zoom, state.leader, state.song],
+    (state) => {
+      const whole = danceDuration(state);
+      const max = largestMagnification(whole);
+      const times = magnification(visibleSpan(state), whole);
+      const part = max > 1 ? Math.log(times) / Math.log(max) : 0;
+      slider.value = String(Math.round(part * SLIDER_STEPS));
+      slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);
+      slider.disabled = max <= 1 || whole === 0;
+      setDisabled(into, slider.disabled || part > 1 - 1e-6);
+      for (const each of [out, fit]) setDisabled(each, state.zoom === null);
+    },
+  );
+  return el('div', { class: 'zoom-control desk' }, out, slider, into, fit);
 }

@@ -3,7 +3,7 @@ import type { Services } from '../store/services';
 import { toastShown } from '../store/actions/notices';
 import { apply, type Store } from '../store/store';
 import { textButton, closeButton } from '../widgets/button';
-import { el, listen, rememberFocus, setText } from '../widgets/dom';
+import { el, rememberFocus, setText } from '../widgets/dom';
 
 /** Seconds between the click and the recording: time to walk to one's place. */
 const COUNTDOWN = 5;
@@ -75,7 +75,7 @@ export async function recordCamera(
     event.stopPropagation();
     close();
   };
-  const removeListener = listen(window, 'keydown', onKey, { capture: true });
+  window.addEventListener('keydown', onKey, { capture: true });
   try {
     await video.play();
     await started;
@@ -91,7 +91,7 @@ export async function recordCamera(
     return await record(stream, { store, playback, status, done: done.signal, cancelled: cancelled.signal });
   } finally {
     for (const track of stream.getTracks()) track.stop();
-    removeListener();
+    window.removeEventListener('keydown', onKey, { capture: true });
     giveBackFocus(dialog);
     dialog.remove();
   }

@@ -3,7 +3,7 @@ import { visibleSpan } from '../store/actions/timeline';
 import type { Services } from '../store/services';
 import { type Store, watchAll } from '../store/store';
 import { timeScale } from '../store/time-scale';
-import { combineDisposers, el } from '../widgets/dom';
+import { el } from '../widgets/dom';
 import { surface, token } from '../widgets/lane-canvas';
 
 /** Confidence below which a frame is marked. */
@@ -46,10 +46,9 @@ export class VideoTrack {
     for (const watcher of this.#watchers) watcher();
   }
 
-  /** Calls `changed` after every change; returns a function that ends it. */
-  watch(changed: () => void): () => void {
+  /** Calls `changed` after every change. */
+  watch(changed: () => void): void {
     this.#watchers.add(changed);
-    return () => this.#watchers.delete(changed);
   }
 }
 
@@ -60,7 +59,7 @@ export class VideoTrack {
  */
 export function mountVideoLane(
   track: VideoTrack,
-): (lanes: HTMLElement, store: Store, services: Services) => () => void {
+): (lanes: HTMLElement, store: Store, services: Services) => void {
   return (lanes, store) => {
     const label = el('div', { class: 'lane-label video-lane' }, el('span', { class: 'dot' }), 'Video');
     const canvas = el('canvas', { attributes: { role: 'img' } });
@@ -81,21 +80,15 @@ export function mountVideoLane(
     };
     lanes.append(label, lane);
     draw();
-    return combineDisposers(
-      onPixelSize(lane, draw),
-      track.watch(draw),
-      watchAll(
-        store,
-        (state) => {
-          const { from, to } = visibleSpan(state);
-          return [from, to, state.theme];
-        },
-        draw,
-      ),
-      () => {
-        label.remove();
-        lane.remove();
+    onPixelSize(lane, draw);
+    track.watch(draw);
+    watchAll(
+      store,
+      (state) => {
+        const { from, to } = visibleSpan(state);
+        return [from, to, state.theme];
       },
+      draw,
     );
   };
 }

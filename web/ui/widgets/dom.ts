@@ -80,22 +80,9 @@ export function combineDisposers(...disposers: (() => void)[]): () => void {
   };
 }
 
-/** Adds a listener and returns its removal. */
-export function listen<K extends keyof WindowEventMap>(
-  target: Window,
-  type: K,
-  listener: (event: WindowEventMap[K]) => void,
-  options?: AddEventListenerOptions,
-): () => void {
-  target.addEventListener(type, listener, options);
-  return () => {
-    target.removeEventListener(type, listener, options);
-  };
-}
-
-/** Calls back when the pointer goes down outside all of these elements; returns the removal. */
-export function onPressOutside(elements: readonly Element[], listener: () => void): () => void {
-  return listen(window, 'pointerdown', ({ target }) => {
+/** Calls back when the pointer goes down outside all of these elements. */
+export function onPressOutside(elements: readonly Element[], listener: () => void): void {
+  window.addEventListener('pointerdown', ({ target }) => {
     if (target instanceof Node && !elements.some((element) => element.contains(target))) listener();
   });
 }

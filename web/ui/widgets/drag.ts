@@ -1,5 +1,3 @@
-import { listen, combineDisposers } from './dom';
-
 /** Callbacks of a drag. Distances are CSS pixels from where it began. */
 interface Drag {
   /** The pointer is down; false declines. */
@@ -16,8 +14,8 @@ interface Drag {
 /** Distance from which a press is a drag. */
 export const DRAG_THRESHOLD_PX = 4;
 
-/** Makes an element draggable to the left and right; returns the removal. */
-export function draggable(element: HTMLElement, drag: Drag): () => void {
+/** Makes an element draggable to the left and right. */
+export function draggable(element: HTMLElement, drag: Drag): void {
   let from: { readonly pointer: number; readonly x: number } | null = null;
   let moving = false;
 
@@ -55,23 +53,14 @@ export function draggable(element: HTMLElement, drag: Drag): () => void {
   element.addEventListener('pointermove', move);
   element.addEventListener('pointerup', up);
   element.addEventListener('pointercancel', cancel);
-  return combineDisposers(
-    listen(
-      window,
-      'keydown',
-      (event) => {
-        if (event.key !== 'Escape' || !moving) return;
-        event.stopPropagation();
-        event.preventDefault();
-        cancel();
-      },
-      { capture: true },
-    ),
-    () => {
-      element.removeEventListener('pointerdown', down);
-      element.removeEventListener('pointermove', move);
-      element.removeEventListener('pointerup', up);
-      element.removeEventListener('pointercancel', cancel);
+  window.addEventListener(
+    'keydown',
+    (event) => {
+      if (event.key !== 'Escape' || !moving) return;
+      event.stopPropagation();
+      event.preventDefault();
+      cancel();
     },
+    { capture: true },
   );
 }

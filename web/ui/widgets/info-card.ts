@@ -51,15 +51,14 @@ export class InfoCard {
   /** The button that has the focus by the keyboard, not by a click. */
   private reachedByKey: HTMLElement | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private readonly resized = new ResizeObserver(() => {
-    this.close();
-  });
 
   /** @param keepClear the element that a card with measures is about: the card goes above it where there is room */
   constructor(private readonly keepClear: HTMLElement) {
     document.body.append(this.card);
     this.listenToCard();
-    this.resized.observe(document.documentElement);
+    new ResizeObserver(() => {
+      this.close();
+    }).observe(document.documentElement);
   }
 
   /** Gives a button a card with this content, or new content for the card that it has. */
@@ -69,12 +68,6 @@ export class InfoCard {
     if (this.current !== button) return;
     this.fill(button);
     this.place();
-  }
-
-  dispose(): void {
-    clearTimeout(this.timer);
-    this.resized.disconnect();
-    this.card.remove();
   }
 
   private listenTo(button: HTMLElement): void {

@@ -5,12 +5,11 @@ const MIN_DISTANCE = 20;
  * Listens for pinches with two fingers. What the first finger had begun is cancelled when the second one comes.
  * @param change is called with the x in the middle of the fingers before (client pixels), the factor by which their
  * distance has grown and the pixels by which their middle has moved since the last call
- * @returns a function that stops it
  */
 export function onPinch(
   element: HTMLElement,
   change: (middle: number, factor: number, by: number) => void,
-): () => void {
+): void {
   /** x of each finger, by its pointer. */
   const fingers = new Map<number, number>();
   let firstTarget: EventTarget | null = null;
@@ -38,12 +37,10 @@ export function onPinch(
   const up = (event: PointerEvent): void => {
     if (event.isTrusted) fingers.delete(event.pointerId);
   };
-  const listeners = { pointerdown: down, pointermove: move, pointerup: up, pointercancel: up } as const;
-  const types = Object.keys(listeners) as (keyof typeof listeners)[];
-  for (const type of types) element.addEventListener(type, listeners[type], { capture: true });
-  return () => {
-    for (const type of types) element.removeEventListener(type, listeners[type], { capture: true });
-  };
+  element.addEventListener('pointerdown', down, { capture: true });
+  element.addEventListener('pointermove', move, { capture: true });
+  for (const type of ['pointerup', 'pointercancel'] as const)
+    element.addEventListener(type, up, { capture: true });
 }
 
 /** Middle and distance of two fingers, pixels; null while there are not two. */

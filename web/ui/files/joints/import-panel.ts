@@ -5,7 +5,7 @@ import { importControls } from './import-controls';
 import { drawSkeleton } from './skeleton-figure';
 import type { Inspection } from '../../../motion/import/inspect';
 import type { ImportOptions } from '../../../motion/retarget/options';
-import { combineDisposers, el, rememberFocus } from '../../widgets/dom';
+import { el, rememberFocus } from '../../widgets/dom';
 import type { Mount } from '../../store/services';
 import { panelToggled } from '../../store/actions/view';
 import { apply, watch } from '../../store/store';
@@ -46,30 +46,24 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
       };
       content.replaceChildren(...panelContent(inspection, source.options, remembered, reread));
     };
-    return combineDisposers(
-      watch(
-        store,
-        (state) => state.openPanel === 'import',
-        (isOpen) => {
-          if (isOpen) giveBackFocus = rememberFocus();
-          else giveBackFocus(dialog);
-          dialog.hidden = !isOpen;
-          if (!isOpen) return;
-          close.focus();
-          void open();
-        },
-      ),
-      // What is set here is meant for the leader that it was opened for.
-      watch(
-        store,
-        ({ refusedLeader, leader }) => refusedLeader ?? leader,
-        (_, { openPanel }) => {
-          if (openPanel === 'import') apply(store, panelToggled('import'));
-        },
-      ),
-      () => {
-        opened++;
-        dialog.remove();
+    watch(
+      store,
+      (state) => state.openPanel === 'import',
+      (isOpen) => {
+        if (isOpen) giveBackFocus = rememberFocus();
+        else giveBackFocus(dialog);
+        dialog.hidden = !isOpen;
+        if (!isOpen) return;
+        close.focus();
+        void open();
+      },
+    );
+    // What is set here is meant for the leader that it was opened for.
+    watch(
+      store,
+      ({ refusedLeader, leader }) => refusedLeader ?? leader,
+      (_, { openPanel }) => {
+        if (openPanel === 'import') apply(store, panelToggled('import'));
       },
     );
   };

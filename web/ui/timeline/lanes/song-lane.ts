@@ -44,10 +44,6 @@ export class SongLane {
   showPlayed(time: number, scale: TimeScale): void {
     this.#wave.showPlayed(time, scale);
   }
-
-  readonly dispose = (): void => {
-    this.#shift.dispose();
-  };
 }
 
 /** The waveform, drawn twice over each other: the bright one is clipped to what has been played. */
