@@ -5,8 +5,9 @@ import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { measureRows } from './quality-rows';
 import { laneTexts, momentCard, momentLabel, type Part, PART_NAMES } from './quality-text';
 import { reactorMotion } from '../store/reactor-motion';
-import { danceDuration, danceFps, isSampling } from '../store/selectors';
+import { danceFps, isSampling } from '../store/selectors';
 import type { Manifest } from '../../model/client';
+import { visibleSpan } from '../store/actions/timeline';
 import type { Services } from '../store/services';
 import type { AppState, Quality } from '../store/state';
 import { type Store, watchAll } from '../store/store';
@@ -16,23 +17,12 @@ const PARTS: readonly Part[] = ['feet', 'closeness', 'beats', 'seams'];
 /** Width that a mark takes in a row, CSS pixels. */
 const MARK_WIDTH = 28;
 
-/** All of the dance. */
-function wholeDance(state: AppState): Span {
-  return { from: 0, to: danceDuration(state) };
-}
-
 /**
  * The quality of the dance along the timeline: a narrow lane for each part, and one of the worst of them, which low
  * windows show instead. The worst moments are numbered; a click plays the seconds around one in a loop.
  * @param root the grid of the timeline's lanes: labels left, lanes right
- * @param visibleSpan the part of the dance that the lanes show
  */
-export function mountQualityStrip(
-  root: HTMLElement,
-  store: Store,
-  services: Services,
-  visibleSpan: (state: AppState) => Span = wholeDance,
-): void {
+export function mountQualityStrip(root: HTMLElement, store: Store, services: Services): void {
   const jumpTo = ({ part, moment }: Mark): void => {
     const { quality } = store.getState();
     if (quality) services.showMoment(part, moment.frame / quality.reactor.fps);

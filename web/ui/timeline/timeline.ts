@@ -11,32 +11,25 @@ import { LoopRegion } from './loop-region';
 import { Playhead } from './playhead';
 import { createRulerLane } from './ruler';
 import { isReading, isSampling } from '../store/selectors';
-import type { Services } from '../store/services';
+import type { Mount, Services } from '../store/services';
 import { createSongLabel } from './song-label';
 import { SongLane } from './lanes/song-lane';
 import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { type Store, watch, watchAll } from '../store/store';
 import { visibleSpan } from '../store/actions/timeline';
-import { type Span, timeScale, type TimeScale } from '../store/time-scale';
-
-/** Puts lanes of its own below the others; `shown` is the part of the dance that the lanes show, seconds. */
-type MountLanes = (
-  lanes: HTMLElement,
-  store: Store,
-  services: Services,
-  shown: (state: AppState) => Span,
-) => void;
+import { timeScale, type TimeScale } from '../store/time-scale';
 
 /**
  * The timeline: ruler, song, leader and reactor over the same seconds, more lanes below in the given order, loop region and playhead
  * across all of them.
+ * @param moreLanes put lanes of their own below the others
  */
 export function mountTimeline(
   root: HTMLElement,
   store: Store,
   services: Services,
-  moreLanes: readonly MountLanes[],
+  moreLanes: readonly Mount[],
 ): void {
   const scale = (): TimeScale => timeScale(visibleSpan(store.getState()), dancers.width);
   /** The shift of the song while it is being dragged, frames. */
@@ -57,7 +50,7 @@ export function mountTimeline(
     ...[ruler.label, ruler.root, songLabel.root, songLane.root, ...dancers.elements],
   );
   root.append(lanes);
-  for (const mount of moreLanes) mount(lanes, store, services, visibleSpan);
+  for (const mount of moreLanes) mount(lanes, store, services);
   const playhead = new Playhead(lanes, store, services, scale);
   const overlay = el('div', { class: 'loop-place' });
   lanes.append(playhead.root, overlay);

@@ -1,7 +1,7 @@
 import { onPixelSize } from '../../common/pixel-size';
 import { visibleSpan } from '../store/actions/timeline';
-import type { Services } from '../store/services';
-import { type Store, watchAll } from '../store/store';
+import type { Mount } from '../store/services';
+import { watchAll } from '../store/store';
 import { timeScale } from '../store/time-scale';
 import { el } from '../widgets/dom';
 import { surface, token } from '../widgets/lane-canvas';
@@ -57,9 +57,7 @@ export class VideoTrack {
  * is there only while there is a video.
  * @param track what is shown
  */
-export function mountVideoLane(
-  track: VideoTrack,
-): (lanes: HTMLElement, store: Store, services: Services) => void {
+export function mountVideoLane(track: VideoTrack): Mount {
   return (lanes, store) => {
     const label = el('div', { class: 'lane-label video-lane' }, el('span', { class: 'dot' }), 'Video');
     const canvas = el('canvas', { attributes: { role: 'img' } });
