@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/button';
-import { el, onPressOutside, setAttribute, setText } from '../widgets/dom';
+import { el, onPressOutside, setOpen, setText } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
@@ -32,13 +32,13 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     apply(store, panelToggled('project'));
   };
   const elements = build(services, toggle);
-  const { opener, menu, head, persistence, save, clear } = elements;
+  const { opener, menu, head, persistence, save, open, clear } = elements;
   root.append(opener, menu);
   watch(
     store,
     (state) => state.openPanel === 'project',
     (isOpen) => {
-      showOpen(elements, isOpen);
+      setOpen(menu, opener, isOpen, () => (save.disabled ? open : save));
     },
   );
   watchAll(
@@ -131,12 +131,4 @@ function menuEntry(symbol: IconName, name: string, hint: string, run: () => void
     icon(symbol),
     el('span', {}, el('b', { text: name }), el('small', { text: hint })),
   );
-}
-
-function showOpen({ menu, opener, save, open }: Elements, isOpen: boolean): void {
-  const focusInside = menu.contains(document.activeElement);
-  menu.hidden = !isOpen;
-  setAttribute(opener, 'aria-expanded', isOpen ? 'true' : 'false');
-  if (isOpen) (save.disabled ? open : save).focus();
-  else if (focusInside) opener.focus();
 }

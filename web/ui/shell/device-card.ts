@@ -1,5 +1,5 @@
 import { textButton, closeButton } from '../widgets/button';
-import { el, onPressOutside, setText } from '../widgets/dom';
+import { el, onPressOutside, setOpen, setText } from '../widgets/dom';
 import { byteSize, bytesOf } from '../store/format';
 import type { Services } from '../store/services';
 import type { ModelState } from '../store/state';
@@ -35,13 +35,13 @@ export function mountDeviceCard(
     apply(store, panelToggled('device'));
   };
   const elements = build(toggle, () => void empty(elements, services));
-  const { card, why, work } = elements;
+  const { card, why, work, close } = elements;
   root.append(card);
   watch(
     store,
     (state) => state.openPanel === 'device',
     (open) => {
-      showOpen(elements, opener, open);
+      setOpen(card, opener, open, () => close);
     },
   );
   watchAll(
@@ -88,14 +88,6 @@ function build(toggle: () => void, empty: () => void): Elements {
   );
   card.hidden = true;
   return { card, why, facts, sum, work, clear, close };
-}
-
-function showOpen({ card, close }: Elements, opener: HTMLElement, open: boolean): void {
-  const focusInside = card.contains(document.activeElement);
-  card.hidden = !open;
-  opener.setAttribute('aria-expanded', String(open));
-  if (open) close.focus();
-  else if (focusInside) opener.focus();
 }
 
 /** Bytes by part, and a sentence below them. */

@@ -1,6 +1,6 @@
 import { textButton } from '../widgets/button';
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
-import { el, onPressOutside, setAttribute, setText, UNTRANSLATED } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setOpen, setText, UNTRANSLATED } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { VisibleOverlays } from '../../common/picture';
 import type { Reaction } from '../store/reaction';
@@ -51,7 +51,7 @@ interface Elements {
 /** What is drawn beside the dancers: toggles on the stage, and a button with a menu where the stage is narrow. */
 export const mountOverlayMenu: Mount = (root, store, services) => {
   const elements = build(store, services);
-  const { corner, button, menu } = elements;
+  const { corner, button, menu, toggles } = elements;
   root.append(corner);
   mountTakesButton(corner, store, services);
   watchAll(
@@ -65,7 +65,7 @@ export const mountOverlayMenu: Mount = (root, store, services) => {
     store,
     (state) => state.openPanel === 'overlays',
     (open) => {
-      showOpen(elements, open);
+      setOpen(menu, button, open, () => toggles[0]?.find((toggle) => toggle.checkVisibility()));
     },
   );
   onPressOutside([menu, button], () => {
@@ -148,14 +148,6 @@ function showState({ button, count, toggles, note, noteText, generate }: Element
   note.hidden = text === '';
   setText(noteText, text);
   generate.hidden = !coarseIsMissing(state) || job !== null;
-}
-
-function showOpen({ button, menu, toggles: [inMenu] }: Elements, open: boolean): void {
-  const wasOpen = !menu.hidden;
-  menu.hidden = !open;
-  button.setAttribute('aria-expanded', String(open));
-  if (open) inMenu?.find((toggle) => toggle.checkVisibility())?.focus();
-  else if (wasOpen && menu.contains(document.activeElement)) button.focus();
 }
 
 /** Why the coarse ghost can't be seen; empty when it can. */

@@ -4,7 +4,7 @@ import { barAt, countedBeats, countingOf, isOf, tempoText } from '../store/count
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { setDisabled, textButton } from '../widgets/button';
-import { el, onPressOutside, setAttribute, setText } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setOpen, setText } from '../widgets/dom';
 import { radioGroup } from '../widgets/radio-group';
 
 const RATES = [
@@ -35,11 +35,7 @@ export function createCountMenu(store: Store): HTMLElement {
     store,
     (state) => state.openPanel === 'counting',
     (open) => {
-      const focusInside = menu.contains(document.activeElement);
-      menu.hidden = !open;
-      button.setAttribute('aria-expanded', String(open));
-      if (open) menu.querySelector('button')?.focus();
-      else if (focusInside) button.focus();
+      setOpen(menu, button, open, () => menu.querySelector('button'));
     },
   );
   onPressOutside([element], () => {

@@ -73,6 +73,23 @@ export function rememberFocus(): (panel: HTMLElement) => void {
   };
 }
 
+/**
+ * Shows or hides a panel, and says so on the button that opens it. The focus goes to the panel's `first`, and back to the
+ * button when it is inside as the panel closes.
+ */
+export function setOpen(
+  panel: HTMLElement,
+  opener: HTMLElement,
+  open: boolean,
+  first: () => HTMLElement | null | undefined,
+): void {
+  const focusInside = panel.contains(document.activeElement);
+  panel.hidden = !open;
+  opener.setAttribute('aria-expanded', String(open));
+  if (open) first()?.focus();
+  else if (focusInside) opener.focus();
+}
+
 /** Combines several disposers into one. */
 export function combineDisposers(...disposers: (() => void)[]): () => void {
   return () => {
