@@ -18,15 +18,10 @@ export interface Song extends Analysis {
   readonly duration: number;
 }
 
-interface LoadProgress {
-  readonly stage: 'decode' | 'features';
-  /** Of the whole loading, 0 to 1. */
-  readonly fraction: number;
-}
-
 interface LoadOptions {
   readonly signal?: AbortSignal;
-  readonly onProgress?: (progress: LoadProgress) => void;
+  /** Is told the fraction of the whole loading that is done, 0 to 1. */
+  readonly onProgress?: (fraction: number) => void;
 }
 
 /** Share of the loading time that decoding takes; the browser reports no progress of it. */
@@ -46,19 +41,18 @@ const cachedSongs = new RecentCache<string, Song>(MAX_CACHED_SONGS);
  * @throws {AppError} (see its codes), or the signal's reason when it is aborted
  */
 export async function loadSong(
-  file: Blob | ArrayBuffer,
+  file: Blob,
   audioBlock: Readonly<Record<string, unknown>>,
   { signal, onProgress = () => undefined }: LoadOptions = {},
 ): Promise<Song> {
   signal?.throwIfAborted();
-  const blob = file instanceof Blob ? file : new Blob([file]);
   const recipe = readRecipe(audioBlock);
-  onProgress({ stage: 'decode', fraction: 0 });
-  const key = await cacheKey(blob, recipe);
-  const song = (key !== null && cachedSongs.get(key)) || (await load(blob, recipe, signal, onProgress));
+  onProgress(0);
+  const key = await cacheKey(file, recipe);
+  const song = (key !== null && cachedSongs.get(key)) || (await load(file, recipe, signal, onProgress));
   signal?.throwIfAborted();
   if (key !== null) cachedSongs.set(key, song);
-  onProgress({ stage: 'features', fraction: 1 });
+  onProgress(1);
   return song;
 }
 
@@ -66,7 +60,7 @@ async function load(
   file: Blob,
   recipe: AudioRecipe,
   signal: AbortSignal | undefined,
-  onProgress: (progress: LoadProgress) => void,
+  onProgress: (fraction: number) => void,
 ): Promise<Song> {
   const decoded = await decodeSong(file);
   signal?.throwIfAborted();
@@ -79,8 +73,7 @@ async function load(
     {
       signal,
       transfers: decoded.channels.map((channel) => channel.buffer),
-      onReport: (fraction) =>
-        onProgress({ stage: 'features', fraction: DECODING_SHARE + (1 - DECODING_SHARE) * fraction }),
+      onReport: (fraction) => onProgress(DECODING_SHARE + (1 - DECODING_SHARE) * fraction),
       toError: workerError,
     },
   );

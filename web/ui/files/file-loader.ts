@@ -190,12 +190,9 @@ export class FileLoader implements Files {
     label: string | null,
     after = Promise.resolve(),
   ): Promise<LoadedSong | null> {
-    const read = async (signal: AbortSignal, progress: (fraction: number) => void): Promise<LoadedSong> => {
+    const read = async (signal: AbortSignal, onProgress: (fraction: number) => void): Promise<LoadedSong> => {
       const { audio } = await this.readers.manifest();
       await after;
-      const onProgress = ({ fraction }: { readonly fraction: number }): void => {
-        progress(fraction);
-      };
       const data = await this.readers.loadSong(blob, audio, { signal, onProgress });
       // The bytes themselves: a file on the visitor's disk may have changed by the time it is saved.
       const file = new Blob([await blob.arrayBuffer()], { type: blob.type });

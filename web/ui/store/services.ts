@@ -27,7 +27,7 @@ export interface FileReaders {
   readonly loadSong: (
     file: Blob,
     recipe: Manifest['audio'],
-    options: { signal: AbortSignal; onProgress: (progress: { readonly fraction: number }) => void },
+    options: { signal: AbortSignal; onProgress: (fraction: number) => void },
   ) => Promise<Song>;
   readonly readLeader: (request: LeaderRequest, signal: AbortSignal) => Promise<ReadLeader>;
   /** Songs are analysed by the audio recipe of the model's manifest. */

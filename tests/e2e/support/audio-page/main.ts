@@ -96,7 +96,7 @@ export const page = {
     try {
       song = await loadSong(file, recipe, {
         signal: controller.signal,
-        onProgress: ({ fraction }) => {
+        onProgress: (fraction) => {
           progress.push(fraction);
           if (fraction >= abortAt) controller.abort();
         },

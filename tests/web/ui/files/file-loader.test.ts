@@ -31,7 +31,7 @@ describe('reading files', () => {
     change.apply(store, change.manifestLoaded(small, 7));
     readers = {
       loadSong: (_file, _recipe, { onProgress }) => {
-        onProgress({ fraction: 0.5 });
+        onProgress(0.5);
         return Promise.resolve(songData(2));
       },
       readLeader: ({ options }) => {
@@ -335,13 +335,13 @@ describe('reading files', () => {
   });
 
   it('progress that comes after the result is ignored', async () => {
-    let late: (progress: { fraction: number }) => void = () => undefined;
+    let late: (fraction: number) => void = () => undefined;
     readers.loadSong = (_file, _recipe, { onProgress }) => {
       late = onProgress;
       return Promise.resolve(songData(2));
     };
     await files.openSong(file('a', SONG), 'a.mp3', null);
-    late({ fraction: 1 });
+    late(1);
     expect(store.getState().reading.song).toBeNull();
   });
 
