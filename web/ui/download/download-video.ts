@@ -3,7 +3,8 @@ import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
 import { chosenPart, fileNameParts, savedVideo } from './dance';
 import { createDownloadPicture } from './download-picture';
 import { textButton } from '../widgets/button';
-import { el, setText, setVariable } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
+import { createMeter } from '../widgets/meter';
 import { downloadChosen } from '../store/actions/download';
 import { videoFileName } from './file-name';
 import { byteSize, duration } from '../store/format';
@@ -184,20 +185,17 @@ function createProgress(): {
   readonly root: HTMLElement;
   readonly show: (videoProgress: VideoProgress | null) => void;
 } {
-  const fill = el('i');
-  const attributes = { role: 'progressbar', 'aria-label': 'Video', 'aria-valuemin': 0, 'aria-valuemax': 100 };
-  const meter = el('span', { class: 'meter', attributes }, fill);
+  const meter = createMeter('Video');
   const count = el('span', { class: 'grow' });
   const left = el('span');
-  const root = el('div', { class: 'row progress-row' }, meter, count, left);
+  const root = el('div', { class: 'row progress-row' }, meter.element, count, left);
   return {
     root,
     show: (videoProgress) => {
       root.hidden = videoProgress === null;
       if (!videoProgress) return;
       const { frame, frames } = videoProgress;
-      setVariable(fill, '--part', frame / frames);
-      meter.setAttribute('aria-valuenow', String(Math.round((100 * frame) / frames)));
+      meter.show(frame / frames);
       setText(count, `Frame ${frame.toLocaleString('en')} of ${frames.toLocaleString('en')}`);
       setText(left, videoProgress.secondsLeft === null ? '' : timeLeft(videoProgress.secondsLeft));
     },

@@ -1,5 +1,6 @@
 import { generatedRole, roleName } from '../store/roles';
-import { el, rememberFocus, setText, setVariable, UNTRANSLATED } from '../widgets/dom';
+import { el, rememberFocus, setText, UNTRANSLATED } from '../widgets/dom';
+import { createMeter } from '../widgets/meter';
 import { jobText } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
@@ -11,23 +12,10 @@ const SHOW_AFTER_MS = 400;
 /** The progress of the reaction that is being made, over the stage, with a button to cancel it. */
 export const mountProgress: Mount = (root, store, services) => {
   const stageText = el('span', { class: 'soft' });
-  const fill = el('i');
-  const meter = el(
-    'span',
-    {
-      class: 'meter',
-      attributes: {
-        role: 'progressbar',
-        'aria-valuemin': 0,
-        'aria-valuemax': 100,
-        'aria-label': 'Generation',
-      },
-    },
-    fill,
-  );
+  const meter = createMeter('Generation');
   const cancel = createCancel(services);
   const title = el('b');
-  const box = el('div', { class: 'float progress' }, el('span', {}, title, stageText), meter, cancel);
+  const box = el('div', { class: 'float progress' }, el('span', {}, title, stageText), meter.element, cancel);
   box.hidden = true;
   // Announced at the start, half way and at the end, not at every step.
   const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
@@ -70,8 +58,7 @@ export const mountProgress: Mount = (root, store, services) => {
     if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${generatedRole(state)} is half made.`);
     setText(title, `${roleName(generatedRole(state))}: `);
     setText(stageText, jobText(job, state));
-    setVariable(fill, '--part', job.fraction);
-    meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));
+    meter.show(job.fraction);
   };
   watchAll(store, (state) => [state.job, state.model], show);
 };

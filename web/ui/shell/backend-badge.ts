@@ -1,6 +1,7 @@
 import { textButton } from '../widgets/button';
 import { mountDeviceCard } from './device-card';
-import { el, setText, setVariable } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
+import { createMeter } from '../widgets/meter';
 import { icon } from '../widgets/icons';
 import { bytesOf, capitalised } from '../store/format';
 import type { Mount } from '../store/services';
@@ -14,12 +15,7 @@ const BACKENDS = { webgpu: 'WebGPU', wasm: 'Processor' } as const;
 /** What computes the dance; while the model is being downloaded, the progress of that. Why is in the card that it opens. */
 export const mountBackendBadge: Mount = (root, store, services) => {
   const title = el('b');
-  const fill = el('i');
-  const meter = el(
-    'span',
-    { class: 'meter', attributes: { role: 'progressbar', 'aria-valuemin': 0, 'aria-valuemax': 100 } },
-    fill,
-  );
+  const meter = createMeter('Model');
   const bytes = el('span', { class: 'bytes' });
   const dot = el('span', { class: 'dot', attributes: { 'aria-hidden': 'true' } });
   const again = textButton('btn tint', 'Try again', services.retryModel);
@@ -38,13 +34,13 @@ export const mountBackendBadge: Mount = (root, store, services) => {
     dot,
     title,
   );
-  const badge = el('div', { class: 'badge' }, about, meter, bytes, again);
+  const badge = el('div', { class: 'badge' }, about, meter.element, bytes, again);
   root.append(badge);
   mountDeviceCard(badge, about, store, services);
 
   const show = (model: ModelState): void => {
     const loading = model.phase === 'loading';
-    meter.hidden = bytes.hidden = !loading;
+    meter.element.hidden = bytes.hidden = !loading;
     dot.hidden = model.phase !== 'ready';
     if (model.phase !== 'failed' && again === document.activeElement) about.focus();
     again.hidden = model.phase !== 'failed';
@@ -56,9 +52,8 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       setText(title, text.title);
       setText(bytes, text.detail);
       about.title = `${text.title} ${text.detail}`.trim();
-      setVariable(fill, '--part', part);
-      meter.setAttribute('aria-label', text.title);
-      meter.setAttribute('aria-valuenow', String(Math.round(part * 100)));
+      meter.element.setAttribute('aria-label', text.title);
+      meter.show(part);
     } else if (model.phase === 'ready') {
       setText(title, BACKENDS[model.backend]);
       about.title = `What computes the dance: ${model.reason}`;

@@ -6,7 +6,8 @@ import type {
   VideoMotion,
   WorldOptions,
 } from '../../video/client';
-import { el, rememberFocus, setText, setVariable } from '../widgets/dom';
+import { el, rememberFocus, setText } from '../widgets/dom';
+import { createMeter } from '../widgets/meter';
 import { textButton, closeButton } from '../widgets/button';
 import { createControls, type Controls } from './controls';
 import { UNSURE } from './video-lane';
@@ -37,8 +38,7 @@ export class VideoPanel {
   readonly #status = el('p', { class: 'status' });
   /** Without the progress, which changes several times a second. */
   readonly #spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
-  readonly #fill = el('i');
-  readonly #meter: HTMLElement;
+  readonly #meter = createMeter('Reading the video');
   readonly #cancel: HTMLButtonElement;
   readonly #close: HTMLButtonElement;
   readonly #sound: HTMLElement;
@@ -55,19 +55,6 @@ export class VideoPanel {
 
   constructor(host: HTMLElement, file: File, actions: PanelActions) {
     this.#picture = new VideoPicture(file, actions);
-    this.#meter = el(
-      'span',
-      {
-        class: 'meter',
-        attributes: {
-          role: 'progressbar',
-          'aria-label': 'Reading the video',
-          'aria-valuemin': 0,
-          'aria-valuemax': 100,
-        },
-      },
-      this.#fill,
-    );
     this.#close = closeButton(actions.close);
     this.#cancel = textButton('btn tint', 'Cancel', actions.cancel);
     this.#sound = textButton('btn tint', 'Use its sound as the song', actions.useSound);
@@ -79,7 +66,7 @@ export class VideoPanel {
       // Above the picture, which may reach below the edge of a low window.
       this.#status,
       this.#spoken,
-      el('div', { class: 'reading' }, this.#meter, this.#cancel),
+      el('div', { class: 'reading' }, this.#meter.element, this.#cancel),
       this.#advice,
       this.#sound,
       this.#picture.root,
@@ -94,7 +81,7 @@ export class VideoPanel {
     this.#reading(true);
     this.#begun = this.#part = 0;
     this.#say('Opening the video');
-    this.#progress(0);
+    this.#meter.show(0);
   }
 
   showReport(report: Exclude<ReadReport, { kind: 'thumbnail' | 'part' }>): void {
@@ -130,7 +117,7 @@ export class VideoPanel {
     const { start, end } = this.#span;
     const [read, all] = [time - start, end - start];
     const share = all > 0 ? Math.min(1, read / all) : 0;
-    this.#progress(share);
+    this.#meter.show(share);
     if (this.#picture.choosing) return;
     const pace = (time - this.#from) / ((now - this.#begun) / 1000);
     const left = time - this.#from > 0.02 * all ? (end - time) / pace : null;
@@ -199,7 +186,7 @@ export class VideoPanel {
 
   #reading(on: boolean): void {
     this.#root.classList.toggle('is-reading', on);
-    this.#meter.hidden = !on;
+    this.#meter.element.hidden = !on;
     if (!on) this.#hide(this.#cancel);
     else {
       this.#cancel.hidden = false;
@@ -219,11 +206,6 @@ export class VideoPanel {
   #say(text: string): void {
     setText(this.#status, text);
     setText(this.#spoken, text);
-  }
-
-  #progress(share: number): void {
-    setVariable(this.#fill, '--part', share);
-    this.#meter.setAttribute('aria-valuenow', String(Math.round(100 * share)));
   }
 }
 
