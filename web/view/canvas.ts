@@ -147,16 +147,15 @@ export class Canvas {
     this.presenter.setBusy(busy);
   }
 
+  /** To be called where the size is fixed: the canvas of the page stays. */
   dispose(): void {
-    this.presenter.dispose();
     this.edgeSmoothing?.dispose();
     const { domElement } = this.renderer;
     domElement.removeEventListener('webglcontextlost', this.loseContext);
     domElement.removeEventListener('webglcontextrestored', this.restoreContext);
     this.renderer.dispose();
     // Browsers allow few contexts; one that is not given back waits for the garbage collector.
-    if (this.fixedSize) this.renderer.forceContextLoss();
-    this.element.remove();
+    this.renderer.forceContextLoss();
   }
 
   /** Device pixels along a CSS pixel. */

@@ -14,7 +14,6 @@ export interface FrameLoop {
   flush(): void;
   /** Median main-thread milliseconds of the last frames. */
   readonly frameMs: number;
-  dispose(): void;
 }
 
 /** Number of frames whose times are kept. */
@@ -35,7 +34,6 @@ export const idleLoop: FrameLoop = {
   resume: () => undefined,
   flush: () => undefined,
   frameMs: 0,
-  dispose: () => undefined,
 };
 
 /** What a loop calls. */
@@ -82,7 +80,6 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
   let restTimer: ReturnType<typeof setTimeout> | undefined;
   let lastFrameAt = 0;
   let running = false;
-  let disposed = false;
   const times: number[] = [];
 
   function frame(now: number): void {
@@ -99,7 +96,7 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     else restTimer = setTimeout(atRest, REST_MS);
   }
   function invalidate(): void {
-    if (request !== 0 || waiting || disposed) return;
+    if (request !== 0 || waiting) return;
     askedAt = performance.now();
     request = requestAnimationFrame((now) => {
       request = 0;
@@ -124,12 +121,11 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     hold: hold.begin,
     release: hold.end,
     resume() {
-      if (!waiting || disposed) return;
+      if (!waiting) return;
       waiting = false;
       drawAsked(performance.now());
     },
     flush() {
-      if (disposed) return;
       waiting = false;
       if (request !== 0) cancelAnimationFrame(request);
       frame(performance.now());
@@ -137,12 +133,6 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     get frameMs() {
       const sorted = [...times].sort((a, b) => a - b);
       return sorted[Math.floor(sorted.length / 2)] ?? 0;
-    },
-    dispose() {
-      disposed = true;
-      clearTimeout(restTimer);
-      if (request !== 0) cancelAnimationFrame(request);
-      request = 0;
     },
   };
 }

@@ -13,7 +13,6 @@ export interface FramePresenter {
    * later.
    */
   setBusy(busy: boolean): void;
-  dispose(): void;
 }
 
 /** Names of software renderers: Chromium's, Mesa's, Windows' and macOS'. */
@@ -35,7 +34,6 @@ export const createDirectPresenter = ({ domElement }: WebGLRenderer): FramePrese
   frameDone: () => undefined,
   presented: true,
   setBusy: () => undefined,
-  dispose: () => undefined,
 });
 
 /** Time between two looks whether a frame is finished, milliseconds. */
@@ -109,6 +107,5 @@ export function createCopyPresenter(renderer: WebGLRenderer, onPresented: () => 
       // Copies the frame that is there: the next one must not be drawn on a canvas that is on the page.
       if (busy && canvas.isConnected) copyWhenFinished();
     },
-    dispose: cancel,
   };
 }

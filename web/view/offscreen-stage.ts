@@ -33,4 +33,8 @@ class OffscreenStage extends Stage {
     this.view.setTime(seconds);
     this.drawFrame(dt);
   }
+
+  dispose(): void {
+    this.view.dispose();
+  }
 }

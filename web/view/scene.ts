@@ -19,8 +19,7 @@ export class StageScene {
 
   constructor(readonly dancers: Dancers) {
     this.scene.background = this.background;
-    const { floor, contactShadows, lights, overlays } = this;
-    for (const { object } of [floor, contactShadows, lights, dancers, overlays]) this.scene.add(object);
+    for (const { object } of this.parts) this.scene.add(object);
   }
 
   setLook(look: Look): void {

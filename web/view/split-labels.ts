@@ -8,7 +8,6 @@ export interface Labels {
 export interface SplitLabels {
   /** Shows the names, or hides line and names. */
   show(labels: Labels | null): void;
-  dispose(): void;
 }
 
 export function createSplitLabels(host: HTMLElement): SplitLabels {
@@ -27,9 +26,6 @@ export function createSplitLabels(host: HTMLElement): SplitLabels {
       line.hidden = labels === null;
       left.textContent = labels?.left ?? '';
       right.textContent = labels?.right ?? '';
-    },
-    dispose() {
-      line.remove();
     },
   };
 }

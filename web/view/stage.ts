@@ -56,12 +56,11 @@ export class Stage {
   protected readonly view: StageRenderer;
   private readonly loop: FrameLoop;
   private readonly splitLabels: SplitLabels;
-  private readonly unwatchSize: () => void;
   private readonly frameListeners = new Set<(stats: StageStats) => void>();
   private readonly lostListeners = new Set<(lost: boolean) => void>();
 
   /**
-   * @param library of bodies; shared with offscreen stages, disposed of by the stage that follows its host
+   * @param library of bodies, shared with offscreen stages
    * @param softwareRendered whether WebGL is drawn by software, without a graphics card
    * @param fixedSize of pictures that are drawn one by one; null follows the host and draws by itself
    */
@@ -83,7 +82,7 @@ export class Stage {
     });
     this.splitLabels = createSplitLabels(host);
     this.loop = fixedSize ? idleLoop : this.createFrameLoop();
-    this.unwatchSize = fixedSize ? () => undefined : onPixelSize(host, () => this.resize());
+    if (!fixedSize) onPixelSize(host, () => this.resize());
     this.setTheme('dark');
     this.resize();
   }
@@ -254,16 +253,6 @@ export class Stage {
   jointPositions(name: DancerName): Float32Array {
     this.view.pose();
     return this.view.contents.dancers.joints(name);
-  }
-
-  dispose(): void {
-    this.loop.dispose();
-    this.unwatchSize();
-    this.frameListeners.clear();
-    this.lostListeners.clear();
-    this.splitLabels.dispose();
-    this.view.dispose();
-    if (!this.fixedSize) this.library.dispose();
   }
 
   /** Draws a frame `dt` seconds after the one before; true asks for another. */

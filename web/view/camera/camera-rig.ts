@@ -170,7 +170,6 @@ export class CameraRig {
   }
 
   dispose(): void {
-    this.reducedMotion?.removeEventListener('change', this.applyPreference);
     this.orbit.controls.dispose();
   }
 
