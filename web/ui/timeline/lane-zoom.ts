@@ -80,8 +80,6 @@ function mountScrollBar(store: Store, lanes: HTMLElement): void {
       const whole = duration(store);
       apply(store, zoomSet(scrolled(before, whole, (distance / bar.clientWidth) * whole)));
     },
-    drop: () => undefined,
-    click: () => undefined,
     cancel: () => {
       apply(store, zoomSet(before));
     },

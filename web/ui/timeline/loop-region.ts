@@ -116,7 +116,7 @@ export class LoopRegion {
       move: (_, event) => {
         this.#drag(this.#drawn(start, event));
       },
-      drop: (event) => {
+      drop: (_, event) => {
         this.#dragged = null;
         apply(this.#store, regionSet(this.#drawn(start, event)));
       },
@@ -147,7 +147,6 @@ export class LoopRegion {
         this.#dragged = null;
         if (region) apply(this.#store, regionSet(region));
       },
-      click: () => undefined,
       cancel: () => {
         this.#drag(null);
       },

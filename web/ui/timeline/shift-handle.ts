@@ -66,10 +66,6 @@ export class ShiftHandle {
   }
 
   #listenToDrags(services: Services): void {
-    let start = 0;
-    this.handle.addEventListener('pointerdown', (event) => {
-      start = event.clientX;
-    });
     draggable(this.handle, {
       begin: () => danceDuration(this.#store.getState()) > 0,
       move: (distance) => {
@@ -79,10 +75,10 @@ export class ShiftHandle {
         this.#showText(shift);
         this.#options.onDragShift(shift);
       },
-      drop: (event) => {
+      drop: (distance) => {
         if (!this.#canShift()) return;
         this.#end();
-        apply(this.#store, shiftSet(this.#shiftAfter(event.clientX - start)));
+        apply(this.#store, shiftSet(this.#shiftAfter(distance)));
       },
       click: (event) => {
         const { left } = this.handle.getBoundingClientRect();

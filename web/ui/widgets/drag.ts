@@ -5,8 +5,8 @@ interface Drag {
   /** The pointer has moved by more than the threshold. */
   readonly move: (distance: number, event: PointerEvent) => void;
   /** The pointer is up again: after a drag, or without one. */
-  readonly drop: (event: PointerEvent) => void;
-  readonly click: (event: PointerEvent) => void;
+  readonly drop?: (distance: number, event: PointerEvent) => void;
+  readonly click?: (event: PointerEvent) => void;
   /** Escape was pressed, or the system cancelled the pointer. */
   readonly cancel: () => void;
 }
@@ -44,10 +44,10 @@ export function draggable(element: HTMLElement, drag: Drag): void {
   };
   const up = (event: PointerEvent): void => {
     if (event.pointerId !== from?.pointer) return;
-    const wasMoving = moving;
+    const [wasMoving, distance] = [moving, event.clientX - from.x];
     end();
-    if (wasMoving) drag.drop(event);
-    else drag.click(event);
+    if (wasMoving) drag.drop?.(distance, event);
+    else drag.click?.(event);
   };
   element.addEventListener('pointerdown', down);
   element.addEventListener('pointermove', move);
