@@ -130,11 +130,6 @@ export class AudioPlayer {
     this.#elements.setSpeed(speed);
   }
 
-  dispose(): void {
-    this.pause();
-    this.load(null, 0);
-  }
-
   /** Changes something that the time depends on without a jump in time. */
   #changeKeepingTime(change: () => void): void {
     const { time } = this;

@@ -38,9 +38,6 @@ class FakePlayer implements Player {
   setLoop(loop: FakePlayer['loop']): void {
     this.loop = loop;
   }
-  dispose(): void {
-    this.playing = false;
-  }
 }
 
 describe('playback', () => {
