@@ -69,11 +69,7 @@ function createCancel(services: Services): HTMLElement {
     {
       class: 'btn tint',
       attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.cancel();
-        },
-      },
+      on: { click: services.cancel },
     },
     'Cancel ',
     el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true', ...UNTRANSLATED } }),

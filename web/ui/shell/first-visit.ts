@@ -16,11 +16,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     {
       class: 'btn primary',
       attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.playDemo();
-        },
-      },
+      on: { click: services.playDemo },
     },
     icon('play'),
     'Play the demo',

@@ -66,9 +66,7 @@ export class SetupView {
         'div',
         { class: 'study-actions' },
         textButton('btn tint', 'Dances of this page', this.actions.useBuiltIn),
-        chooser('Choose files', '', (files) => {
-          this.actions.chooseFiles(files);
-        }),
+        chooser('Choose files', '', this.actions.chooseFiles),
       ),
       el('p', {
         class: 'file-help',
@@ -77,9 +75,7 @@ export class SetupView {
       el('h2', { text: 'Participant' }),
       form,
       el('h2', { text: 'Summary of several participants' }),
-      chooser('Combine saved answers', '.csv', (files) => {
-        this.actions.addAnswers(files);
-      }),
+      chooser('Combine saved answers', '.csv', this.actions.addAnswers),
     );
   }
 

@@ -17,7 +17,10 @@ export const mountTakes: Mount = (root, store, services) => {
     class: 'empty-line',
     text: 'Each new dance is kept here as a take. Mark two takes A and B to compare them at the same moment.',
   });
-  const coming = createComingList();
+  const coming = el('ul', {
+    class: 'takes-coming',
+    attributes: { 'aria-label': 'Takes that are being read' },
+  });
   const count = el('span', { class: 'muted' });
   const close = createPhoneClose(store);
   const clear = createClearButton(store);
@@ -103,10 +106,6 @@ function createClearButton(store: Store): HTMLButtonElement {
   });
   button.title = 'Removes all takes without a star. Undo brings them back.';
   return button;
-}
-
-function createComingList(): HTMLElement {
-  return el('ul', { class: 'takes-coming', attributes: { 'aria-label': 'Takes that are being read' } });
 }
 
 /** Titles of the takes of an earlier visit that are still being read. */
