@@ -39,7 +39,7 @@ export function mountTimeline(
     scale,
     onDragShift: (shift) => {
       draggedShift = shift;
-      redraw.request();
+      redraw();
     },
   });
   const songLabel = createSongLabel(store, songLane.handle);
@@ -61,7 +61,7 @@ export function mountTimeline(
     scale,
   });
 
-  const redraw = oncePerFrame(() => {
+  const draw = (): void => {
     const state = store.getState();
     const now = scale();
     const shift = draggedShift ?? state.shift;
@@ -73,10 +73,11 @@ export function mountTimeline(
     dancers.draw(state, now, musicBeats({ ...state, shift }));
     loop.draw();
     playhead.draw();
-  });
-  onPixelSize(lanes, redraw.now);
+  };
+  const redraw = oncePerFrame(draw);
+  onPixelSize(lanes, draw);
   followMotions(store, dancers);
-  watchAll(store, drawnParts, redraw.request);
+  watchAll(store, drawnParts, redraw);
   watch(
     store,
     (state) => state.job,
@@ -132,17 +133,11 @@ function drawnParts(state: AppState): readonly unknown[] {
   ];
 }
 
-/** Runs `draw` before the next frame of the page, once however often it is requested, or now. */
-function oncePerFrame(draw: () => void): {
-  readonly now: () => void;
-  readonly request: () => void;
-} {
+/** A function that runs `draw` before the next frame of the page, once however often it is called. */
+function oncePerFrame(draw: () => void): () => void {
   let frame = 0;
-  return {
-    now: draw,
-    request: () => {
-      cancelAnimationFrame(frame);
-      frame = requestAnimationFrame(draw);
-    },
+  return () => {
+    cancelAnimationFrame(frame);
+    frame = requestAnimationFrame(draw);
   };
 }
