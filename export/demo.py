@@ -1,11 +1,12 @@
-"""The shipped demo's dancers, made by the model itself: a leader by role swap, and a first reaction to that leader.
+"""The shipped demo's reaction to its leader, by the model itself, and on demand a new leader by role swap.
 
-    python -m export.demo --model web/public/models/salsa --data ../shared/data/cmu_salsa/duets.npz --duet salsa_02
-    node tools/write-bvh.mjs runs/demo/motions.npz web/public/models/salsa/manifest.json web/public/demo
+    python -m export.demo --model web/public/models/salsa
+    node tools/write-bvh.mjs runs/demo/motions.npz web/public/models/salsa/manifest.json runs/demo
+    cp runs/demo/reactor.bvh web/public/demo
 
-The duet's reactor is the input for which the leader is generated; no motion of the duet is written. The leader in
-web/public/demo was made by the student's teacher and stays, since the controls are measured beside it; the reaction to
-it is the student's.
+With `--data ../shared/data/cmu_salsa/duets.npz --duet salsa_02` a leader is generated for that duet's reactor; no
+motion of the duet is written. The leader in web/public/demo was made so by the student's teacher and stays, since the
+controls are measured beside it.
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from export.runtime import open_model
+from export.runtime import Exported, open_model
 from training.command_line import run_program
 from training.config import FPS
 from training.data.augment import warp_factor, warp_motion
+from training.data.bvh.reader import read_bvh
 from training.data.sources import read_duets
 from training.data.step_tempo import duet_tempo
 from training.diffusion.react import Request, react
@@ -33,8 +35,10 @@ from training.music.tempo import CYCLE, Tempo
 @dataclass(frozen=True)
 class Options:
     model: Path
-    data: Path
-    duet: str
+    leader: Path = Path("web/public/demo/leader.bvh")
+    data: Path | None = None
+    duet: str | None = None
+    """Of the data: a new leader, for this duet's reactor, takes the place of `leader`."""
     song: Path = Path("web/public/demo/song.mp3")
     out: Path = Path("runs/demo")
     seconds: float = 32.0
@@ -60,24 +64,31 @@ def on_the_beat(motion: np.ndarray, dance: Tempo, song: Tempo, skip: int, second
     return warped[start : start + round(seconds * FPS)]
 
 
-def main(options: Options) -> None:
-    duets = {duet.name: duet for duet in read_duets(options.data)}
-    duet = duets[options.duet]
+def new_leader(model: Exported, options: Options, data: Path, whole_song: np.ndarray) -> np.ndarray:
+    """Generated for the reactor of a duet, (T, 22, 3) in the middle of the floor."""
+    duet = next((duet for duet in read_duets(data) if duet.name == options.duet), None)
+    if duet is None:
+        raise ValueError(f"--duet {options.duet} is not in {data}")
     song = Tempo(Song.bpm, 0.35)
     partner = on_the_beat(
         duet.reactor, duet_tempo(duet, leader_only=False), song, options.skip, options.seconds
     )
+    leader = put_on_floor(
+        react(model, Request(partner, whole_song[: len(partner)], options.leader_seed, role=1.0))
+    )
+    return leader - leader[:, 0].mean(axis=0) * np.array([1, 0, 1])
+
+
+def main(options: Options) -> None:
     recipe = AudioRecipe()
     whole_song = features(load_audio(options.song, recipe), recipe)
-    music = whole_song[: len(partner)]
     model = open_model(options.model, threads=1)
-    leader = put_on_floor(react(model, Request(partner, music, options.leader_seed, role=1.0)))
-    middle = leader[:, 0].mean(axis=0) * np.array([1, 0, 1])
-    leader = (leader - middle).astype(np.float32)
-    reactor = react(model, Request(leader, music, options.seed))
+    new = options.data and new_leader(model, options, options.data, whole_song)
+    leader = (read_bvh(options.leader).motion if new is None else new).astype(np.float32)
+    reactor = react(model, Request(leader, whole_song[: len(leader)], options.seed))
     options.out.mkdir(parents=True, exist_ok=True)
     np.savez(options.out / "motions.npz", leader=leader, reactor=reactor, song=whole_song)
-    for start in range(0, int(options.seconds) - 8, 8):
+    for start in range(0, int(len(leader) / FPS) - 8, 8):
         filmstrip(leader, reactor, options.out / f"from_{start}.png", start=start)
     print(f"{len(leader) / FPS:.1f} s in {options.out}")
 
