@@ -50,7 +50,7 @@ def _kept_state(module: nn.Module) -> dict[str, Tensor]:
 
 def latents_digest(hfsq: Autoencoder) -> str:
     """SHA-256 of what makes the latents of a stage 1: all of its weights but the decoders', which may be trained
-    further beside a denoiser (`--keep-latents`).
+    further beside a denoiser (`--decoders`).
     """
     digest = hashlib.sha256()
     for key, value in sorted(_kept_state(hfsq).items()):

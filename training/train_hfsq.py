@@ -6,13 +6,14 @@ python -m training.train_hfsq --data my-duets --val duo_3 --test duo_5 --out run
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 from lion_pytorch import Lion
 from torch import Tensor, nn
 
 from training.checkpoint import earlier_training, load_hfsq, save_hfsq, start_from
 from training.command_line import run_program
-from training.config import STRIDE, FrameConfig, HfsqConfig, check_latent_frames
+from training.config import STREAMS, STRIDE, FrameConfig, HfsqConfig, check_latent_frames
 from training.data.duet import Duet
 from training.data.npz import read_solo
 from training.data.splits import Split
@@ -30,8 +31,8 @@ from training.loop.run import Run, launch
 class Options(LoopOptions):
     """solo: dances whose bodies join the training of the upper and lower streams."""
 
-    keep_latents: bool = False
-    """Train the decoders alone, so that a denoiser of the `init` checkpoint goes on fitting."""
+    decoders: tuple[Literal["upper", "lower", "placement"], ...] = ()
+    """Train these streams' decoders alone. Latents stay, so a denoiser of the `init` checkpoint goes on fitting."""
     steps: int = 4000
     batch: int = 48
     window: int = 240
@@ -46,8 +47,8 @@ class Options(LoopOptions):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.keep_latents and self.init is None:
-            raise ValueError("--keep-latents keeps those of a checkpoint: name it with --init")
+        if self.decoders and self.init is None:
+            raise ValueError("--decoders goes on with those of a checkpoint: name it with --init")
         if self.hfsq.quantiser == "none":
             raise ValueError(
                 "--hfsq.quantiser none has nothing to learn: training.evaluation.no_latent_baseline writes it"
@@ -101,10 +102,10 @@ def initial_autoencoder(options: Options, clips: list[Clip]) -> Autoencoder:
         start_from(autoencoder, options.init, "hfsq")
     else:
         set_input_statistics(autoencoder, clips)
-    if options.keep_latents:
-        for stream in autoencoder.each:
-            stream.encoder.requires_grad_(False)
-            stream.quantiser.requires_grad_(False)
+    if options.decoders:
+        autoencoder.requires_grad_(False)
+        for name, stream in zip(STREAMS, autoencoder.each, strict=True):
+            stream.decoder.requires_grad_(name in options.decoders)
     return autoencoder
 
 
@@ -139,7 +140,7 @@ def finish(
 ) -> None:
     """Measure and save the averaged autoencoder with the statistics of its latents. before: `earlier_training`."""
     with run.averaged() as model:
-        if not options.keep_latents:
+        if not options.decoders:
             set_latent_statistics(model, clips)
         report = evaluate(model, val, options.frame)
         if options.hfsq.quantiser == "hfsq":

@@ -21,7 +21,7 @@ from training.train_hfsq import Options, evaluate
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"keep_latents": True}, "--keep-latents keeps those of a checkpoint"),
+        ({"decoders": ("upper",)}, "--decoders goes on with those of a checkpoint"),
         ({"window": 90}, "a window of 90 frames is not a multiple of 4"),
         ({"hfsq": HfsqConfig(quantiser="none")}, "training.evaluation.no_latent_baseline writes it"),
     ],

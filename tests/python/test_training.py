@@ -29,6 +29,7 @@ from training.checkpoint import (
 )
 from training.checkpoints import average
 from training.config import (
+    STREAMS,
     DenoiserConfig,
     DenoiserLossConfig,
     DiffusionConfig,
@@ -136,7 +137,7 @@ def test_a_denoiser_does_not_go_with_a_stage_1_that_was_trained_again(
         train_denoiser.main(stage2(data, folder, resume=True, steps=4))
     for name in ("hfsq.json", "hfsq.safetensors"):
         shutil.copy(trained / name, folder)
-    train_hfsq.main(stage1(data, folder, init=folder, keep_latents=True, seed=1))
+    train_hfsq.main(stage1(data, folder, init=folder, decoders=STREAMS, seed=1))
     load_model(folder)
 
 
@@ -169,13 +170,13 @@ def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> N
 
 
 def test_training_starts_from_another_checkpoint(data: Path, trained: Path, tmp_path: Path) -> None:
-    """Decoders learn and latents stay, so that the first checkpoint's denoiser fits and learns too."""
+    """The decoders asked for learn and latents stay, so that the first checkpoint's denoiser fits and learns too."""
     # On another duet, whose statistics are others.
-    train_hfsq.main(stage1(data, tmp_path, init=trained, keep_latents=True, val=("made_0",)))
+    train_hfsq.main(stage1(data, tmp_path, init=trained, decoders=("upper", "lower"), val=("made_0",)))
     before, after = load_hfsq(trained)[0].state_dict(), load_hfsq(tmp_path)[0].state_dict()
     changed = {name for name in before if not torch.equal(before[name], after[name])}
-    assert {name.split(".")[2] for name in changed if name.startswith("streams.")} == {"decoder"}
-    assert all(name.startswith("streams.") for name in changed)
+    learnt = {str(STREAMS.index(name)) for name in ("upper", "lower")}
+    assert {tuple(name.split(".")[:3]) for name in changed} == {("streams", i, "decoder") for i in learnt}
     train_denoiser.main(stage2(data, tmp_path, init=trained, learning_rate=0.0))
     same, _ = load_denoiser(tmp_path, load_hfsq(tmp_path)[0])
     first, _ = load_denoiser(trained, load_hfsq(trained)[0])
