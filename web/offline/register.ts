@@ -22,11 +22,17 @@ export function registerServiceWorker(
   // WebKit may report an installed worker only after that worker controls the page.
   const wasControlled = Boolean(container?.controller);
 
+  let isActivating = false;
   const offer = (worker: ServiceWorker | null): void => {
     if (!worker || !wasControlled) return;
     waiting = worker;
     onUpdate();
   };
+  container?.addEventListener('controllerchange', () => {
+    if (isActivating) location.reload();
+    // Another tab has activated a newer build than this page's, perhaps before this page registered.
+    else offer(container.controller);
+  });
   const register = async (): Promise<void> => {
     try {
       // The script is fetched from the server each time: a host that lets scripts be cached would hide new builds.
@@ -53,13 +59,7 @@ export function registerServiceWorker(
       if (!waiting) return;
       // Another tab has activated it already: it controls this page too, and no event will come.
       if (waiting.state !== 'installed') return location.reload();
-      container?.addEventListener(
-        'controllerchange',
-        () => {
-          location.reload();
-        },
-        { once: true },
-      );
+      isActivating = true;
       waiting.postMessage('take-over');
     },
   };

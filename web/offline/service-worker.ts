@@ -24,9 +24,9 @@ self.addEventListener('activate', (event) => {
   event.waitUntil(
     (async () => {
       const windows = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });
+      await self.clients.claim();
       // Other open pages may still need files of the build that they were loaded from.
       if (windows.length <= 1) await deleteOtherShells(SHELL, scope);
-      await self.clients.claim();
     })(),
   );
 });

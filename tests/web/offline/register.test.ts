@@ -40,6 +40,16 @@ describe('registering the service worker', () => {
     expect(await visit(true)).toBe(1);
   });
 
+  it('offers a build that another tab activates before this page has registered', () => {
+    const container = Object.assign(new EventTarget(), { controller: installed(), register: vi.fn() });
+    vi.stubGlobal('navigator', { serviceWorker: container });
+    const onUpdate = vi.fn();
+    registerServiceWorker(SCRIPT, new Promise(() => undefined), onUpdate);
+    container.controller = installed();
+    container.dispatchEvent(new Event('controllerchange'));
+    expect(onUpdate).toHaveBeenCalledOnce();
+  });
+
   it('waits for what the page downloads before', async () => {
     const register = vi.fn(() => new Promise(() => undefined));
     vi.stubGlobal('navigator', { serviceWorker: Object.assign(new EventTarget(), { register }) });
