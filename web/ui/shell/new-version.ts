@@ -11,7 +11,11 @@ export const mountNewVersion: Mount = (root, store, services) => {
     'div',
     { class: 'float update', attributes: { role: 'status' } },
     text,
-    textButton('btn tint', 'Reload', services.loadUpdate),
+    textButton('btn tint', 'Reload', () => {
+      // It may take seconds until the older build has answered what other tabs asked of it.
+      setText(text, 'The new version is loading.');
+      services.loadUpdate();
+    }),
     textButton(
       'btn ghost',
       'Later',
