@@ -12,7 +12,7 @@ export const mountNewVersion: Mount = (root, store, services) => {
     { class: 'float update', attributes: { role: 'status' } },
     text,
     textButton('btn tint', 'Reload', () => {
-      // It may take seconds until the older build has answered what other tabs asked of it.
+      // The browser waits until the older build's service worker is idle.
       setText(text, 'The new version is loading.');
       services.loadUpdate();
     }),
