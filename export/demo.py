@@ -4,9 +4,9 @@
     node tools/write-bvh.mjs runs/demo/motions.npz web/public/models/salsa/manifest.json runs/demo
     cp runs/demo/reactor.bvh web/public/demo
 
-With `--data ../shared/data/cmu_salsa/duets.npz --duet salsa_02` a leader is generated for that duet's reactor; no
-motion of the duet is written. The leader in web/public/demo was made so by the student's teacher and stays, since the
-controls are measured beside it.
+With `--duet ../shared/data/cmu_salsa/duets.npz salsa_02` a leader is generated for that duet's reactor; no motion of
+the duet is written. The leader in web/public/demo was made so by the student's teacher and stays, since the controls
+are measured beside it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from training.command_line import run_program
 from training.config import FPS
 from training.data.augment import warp_factor, warp_motion
 from training.data.bvh.reader import read_bvh
+from training.data.duet import Duet
 from training.data.sources import read_duets
+from training.data.splits import split
 from training.data.step_tempo import duet_tempo
 from training.diffusion.react import Request, react
 from training.evaluation.report.filmstrip import filmstrip
@@ -36,9 +38,8 @@ from training.music.tempo import CYCLE, Tempo
 class Options:
     model: Path
     leader: Path = Path("web/public/demo/leader.bvh")
-    data: Path | None = None
-    duet: str | None = None
-    """Of the data: a new leader, for this duet's reactor, takes the place of `leader`."""
+    duet: tuple[Path, str] | None = None
+    """Data and a duet of it: a new leader, for this duet's reactor, takes the place of `leader`."""
     song: Path = Path("web/public/demo/song.mp3")
     out: Path = Path("runs/demo")
     seconds: float = 32.0
@@ -64,11 +65,8 @@ def on_the_beat(motion: np.ndarray, dance: Tempo, song: Tempo, skip: int, second
     return warped[start : start + round(seconds * FPS)]
 
 
-def new_leader(model: Exported, options: Options, data: Path, whole_song: np.ndarray) -> np.ndarray:
+def new_leader(model: Exported, options: Options, duet: Duet, whole_song: np.ndarray) -> np.ndarray:
     """Generated for the reactor of a duet, (T, 22, 3) in the middle of the floor."""
-    duet = next((duet for duet in read_duets(data) if duet.name == options.duet), None)
-    if duet is None:
-        raise ValueError(f"--duet {options.duet} is not in {data}")
     song = Tempo(Song.bpm, 0.35)
     partner = on_the_beat(
         duet.reactor, duet_tempo(duet, leader_only=False), song, options.skip, options.seconds
@@ -83,8 +81,13 @@ def main(options: Options) -> None:
     recipe = AudioRecipe()
     whole_song = features(load_audio(options.song, recipe), recipe)
     model = open_model(options.model, threads=1)
-    new = options.data and new_leader(model, options, options.data, whole_song)
-    leader = (read_bvh(options.leader).motion if new is None else new).astype(np.float32)
+    if options.duet:
+        data, name = options.duet
+        (duet,) = split(read_duets(data), val=(name,), test=()).val
+        leader = new_leader(model, options, duet, whole_song)
+    else:
+        leader = read_bvh(options.leader).motion
+    leader = leader.astype(np.float32)
     reactor = react(model, Request(leader, whole_song[: len(leader)], options.seed))
     options.out.mkdir(parents=True, exist_ok=True)
     np.savez(options.out / "motions.npz", leader=leader, reactor=reactor, song=whole_song)

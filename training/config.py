@@ -7,11 +7,12 @@ import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 FPS = 30
 STRIDE = 4  # motion frames per latent frame (paper 3.2: n = N/4)
-STREAMS: tuple[str, ...] = ("upper", "lower", "placement")
+StreamName = Literal["upper", "lower", "placement"]
+STREAMS: tuple[StreamName, ...] = get_args(StreamName)
 
 
 def check_limits(options: Any, **limits: tuple[float, float]) -> None:

@@ -6,14 +6,13 @@ python -m training.train_hfsq --data my-duets --val duo_3 --test duo_5 --out run
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
 
 from lion_pytorch import Lion
 from torch import Tensor, nn
 
 from training.checkpoint import earlier_training, load_hfsq, save_hfsq, start_from
 from training.command_line import run_program
-from training.config import STREAMS, STRIDE, FrameConfig, HfsqConfig, check_latent_frames
+from training.config import STREAMS, STRIDE, FrameConfig, HfsqConfig, StreamName, check_latent_frames
 from training.data.duet import Duet
 from training.data.npz import read_solo
 from training.data.splits import Split
@@ -31,7 +30,7 @@ from training.loop.run import Run, launch
 class Options(LoopOptions):
     """solo: dances whose bodies join the training of the upper and lower streams."""
 
-    decoders: tuple[Literal["upper", "lower", "placement"], ...] = ()
+    decoders: tuple[StreamName, ...] = ()
     """Train these streams' decoders alone. Latents stay, so a denoiser of the `init` checkpoint goes on fitting."""
     steps: int = 4000
     batch: int = 48

@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/button';
-import { el, rememberFocus, UNTRANSLATED } from '../widgets/dom';
+import { el, returnFocusOf, UNTRANSLATED } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from './overlay-menu';
 import { apply, type Store, watch } from '../store/store';
@@ -53,13 +53,12 @@ export const mountKeysDialog: Mount = (root, store) => {
   );
   dialog.hidden = true;
   root.append(dialog);
-  let giveBackFocus = rememberFocus();
+  const returnFocus = returnFocusOf(dialog);
   watch(
     store,
     (state) => state.openPanel === 'keys',
     (open) => {
-      if (open) giveBackFocus = rememberFocus();
-      else giveBackFocus(dialog);
+      returnFocus(open);
       dialog.hidden = !open;
       if (open) close.focus();
     },

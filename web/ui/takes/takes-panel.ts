@@ -1,5 +1,5 @@
 import { textButton, closeButton } from '../widgets/button';
-import { el, setAttribute, setHidden, setText, rememberFocus } from '../widgets/dom';
+import { el, setAttribute, setHidden, setText, returnFocusOf } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
@@ -75,13 +75,12 @@ export const mountTakes: Mount = (root, store, services) => {
 
 /** Opens and closes the sheet of the phone. */
 function watchSheet(section: HTMLElement, close: HTMLElement, store: Store): void {
-  let giveBackFocus = rememberFocus();
+  const returnFocus = returnFocusOf(section);
   watch(
     store,
     (state) => state.openPanel === 'takes',
     (open) => {
-      if (open) giveBackFocus = rememberFocus();
-      else giveBackFocus(section);
+      returnFocus(open);
       section.classList.toggle('open', open);
       // Only where it covers the page is it what its button says that it opens.
       setAttribute(section, 'role', open && 'dialog');

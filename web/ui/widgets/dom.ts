@@ -74,6 +74,18 @@ export function rememberFocus(): (panel: HTMLElement) => void {
 }
 
 /**
+ * Remembers what has the focus each time a panel opens, and gives it back each time it closes.
+ * @returns to be called when the panel opens, and before it is hidden
+ */
+export function returnFocusOf(panel: HTMLElement): (open: boolean) => void {
+  let giveBack = rememberFocus();
+  return (open) => {
+    if (open) giveBack = rememberFocus();
+    else giveBack(panel);
+  };
+}
+
+/**
  * Shows or hides a panel, and says so on the button that opens it. The focus goes to the panel's `first`, and back to the
  * button when it is inside as the panel closes.
  */

@@ -5,7 +5,7 @@ import { importControls } from './import-controls';
 import { drawSkeleton } from './skeleton-figure';
 import type { Inspection } from '../../../motion/import/inspect';
 import type { ImportOptions } from '../../../motion/retarget/options';
-import { el, rememberFocus } from '../../widgets/dom';
+import { el, returnFocusOf } from '../../widgets/dom';
 import type { Mount } from '../../store/services';
 import { panelToggled } from '../../store/actions/view';
 import { apply, watch } from '../../store/store';
@@ -31,7 +31,7 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
     dialog.hidden = true;
     root.append(dialog);
     let opened = 0;
-    let giveBackFocus = rememberFocus();
+    const returnFocus = returnFocusOf(dialog);
     const open = async (): Promise<void> => {
       const number = ++opened;
       const { refusedLeader, leader } = store.getState();
@@ -50,8 +50,7 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
       store,
       (state) => state.openPanel === 'import',
       (isOpen) => {
-        if (isOpen) giveBackFocus = rememberFocus();
-        else giveBackFocus(dialog);
+        returnFocus(isOpen);
         dialog.hidden = !isOpen;
         if (!isOpen) return;
         close.focus();
