@@ -115,6 +115,8 @@ def reactor_generator(
     """A model as evaluation asks it. at_every_step: with the paper's form of guidance, under PyTorch alone."""
 
     def generate(leader: np.ndarray, music: np.ndarray | None, seed: int, **controls: Any) -> np.ndarray:
+        if at_every_step:
+            controls = {"variety": 1.0} | controls  # it has no other
         request = Request(leader, music, seed, steps=steps, at_every_step=at_every_step, **controls)
         return react(model, request)
 
@@ -125,7 +127,8 @@ def solve_with_node(
     motions: Sequence[np.ndarray], leader: np.ndarray, music: np.ndarray | None, *flags: str
 ) -> list[np.ndarray]:
     """Motions (T, 22, 3) on the skeleton that the page draws and exports, as a partner of the leader (T, 22, 3) to the
-    music (T', 54): web/motion under Node, files in between. flags: of tools/solve.mjs.
+    music (T', 54): web/motion under Node, files in between. flags: of tools/solve.mjs. Raises ValueError with what Node
+    says where it fails.
     """
 
     def write(path: Path, values: np.ndarray) -> Path:
@@ -138,12 +141,15 @@ def solve_with_node(
         manifest.write_text(json.dumps({"quality": quality_rules(), "audio": AudioRecipe().to_dict()}))
         song = [] if music is None else ["--song", write(folder / "song", music)]
         files = [write(folder / str(index), motion) for index, motion in enumerate(motions)]
-        subprocess.run(
+        done = subprocess.run(
             ["node", "tools/solve.mjs", "--beside", beside, "--manifest", manifest, *song, *flags, *files],
             cwd=ROOT,
-            check=True,
+            check=False,
             capture_output=True,
+            text=True,
         )
+        if done.returncode:
+            raise ValueError(f"tools/solve.mjs failed: {done.stderr or done.stdout}")
         return [
             np.frombuffer(file.read_bytes(), dtype="<f4").reshape(motion.shape).astype(np.float32)
             for file, motion in zip(files, motions, strict=True)

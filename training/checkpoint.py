@@ -48,15 +48,20 @@ def _kept_state(module: nn.Module) -> dict[str, Tensor]:
     return {key: value.contiguous() for key, value in state.items()}
 
 
+def weights_digest(module: nn.Module, leave_out: str | None = None) -> str:
+    """SHA-256 of the weights as a checkpoint keeps them, without those that have `leave_out` in their names."""
+    digest = hashlib.sha256()
+    for key, value in sorted(_kept_state(module).items()):
+        if leave_out is None or leave_out not in key:
+            digest.update(key.encode() + value.cpu().numpy().tobytes())
+    return digest.hexdigest()
+
+
 def latents_digest(hfsq: Autoencoder) -> str:
     """SHA-256 of what makes the latents of a stage 1: all of its weights but the decoders', which may be trained
     further beside a denoiser (`--decoders`).
     """
-    digest = hashlib.sha256()
-    for key, value in sorted(_kept_state(hfsq).items()):
-        if ".decoder." not in key:
-            digest.update(key.encode() + value.cpu().numpy().tobytes())
-    return digest.hexdigest()
+    return weights_digest(hfsq, leave_out=".decoder.")
 
 
 def save_hfsq(folder: Path, model: Autoencoder, frame: FrameConfig, provenance: dict) -> None:

@@ -85,6 +85,8 @@ class HfsqConfig:
 
     def __post_init__(self) -> None:
         check_limits(self, levels=(2, math.inf), scales=(1e-6, math.inf))
+        # A deeper decoder would reach farther than RECEPTIVE_FIELD in training/diffusion/decode.py.
+        check_limits(self, depth=(1, 6))
         check_limits(self, **dict.fromkeys(("groups", "layers", "group_width", "codebook"), (1, math.inf)))
 
 

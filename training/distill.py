@@ -10,15 +10,23 @@ sampled by the teacher anew, so that none is learnt by heart.
 from __future__ import annotations
 
 import copy
+import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import copy_card, copy_stage1, earlier_training, load_model, save_denoiser
+from training.checkpoint import (
+    copy_card,
+    copy_stage1,
+    earlier_training,
+    load_model,
+    save_denoiser,
+    weights_digest,
+)
 from training.command_line import run_program
-from training.config import STRIDE, DiffusionConfig
+from training.config import STRIDE, DiffusionConfig, to_json
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.guidance import clamp_to_range
@@ -83,7 +91,11 @@ def main(options: Options) -> None:
     )
     stage = Distillation(student, network, teacher.diffusion)
     before = earlier_training(options.teacher, "denoiser")
-    run = Run(fabric, stage, student, optimizer, options, options.out / "distill", warmup=50)
+    begins_with = {
+        "teacher": weights_digest(network),
+        "sampling of the teacher": json.dumps(to_json(teacher.diffusion)),
+    }
+    run = Run(fabric, stage, student, optimizer, options, options.out / "distill", 50, begins_with)
 
     def finish() -> None:
         """Measure and save the averaged student."""
@@ -98,10 +110,7 @@ def main(options: Options) -> None:
             copy_stage1(options.teacher, options.out)
             copy_card(options.teacher, options.out)
 
-    run.train(lambda random: windows.batch(options.batch, random), finish)
-    if fabric.is_global_zero:
-        finish()
-    fabric.barrier()
+    run.train(lambda random: windows.batch(options.batch, random), finish, finish)
 
 
 def student_diffusion(

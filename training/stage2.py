@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from training.config import STRIDE, ConditionConfig, FrameConfig
+from training.config import STRIDE, ConditionConfig, FrameConfig, check_limits
 from training.data.duet import Duet
 from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
@@ -37,6 +38,7 @@ class ClipOptions(WindowOptions):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        check_limits(self, solo_copies=(1, math.inf), pieces=(0, math.inf))
         if self.solo is None and self.solo_copies != 1:
             raise ValueError("--solo-copies is of the dances of --solo, which was not given")
         if self.songs is None and self.pieces != ClipOptions.pieces:
@@ -79,8 +81,8 @@ def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 
     rows = []
     for duet in duets:
         frames = len(duet) // STRIDE * STRIDE
-        music = next(iter(bank[duet.name].values()))
+        music = next(iter(bank[duet.name].values()), None)
         for seed in range(seeds):
-            made = react(model, Request(duet.leader[:frames], music[:frames], seed))
+            made = react(model, Request(duet.leader[:frames], music, seed))
             rows.append(quick_report(duet.leader[:frames], duet.reactor[:frames], made))
     return {f"val/{k}": value for k, value in mean_report(rows).items()}

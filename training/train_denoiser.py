@@ -17,6 +17,7 @@ from training.checkpoint import (
     load_hfsq,
     save_denoiser,
     start_from,
+    weights_digest,
     write_card,
 )
 from training.command_line import run_program
@@ -67,7 +68,7 @@ def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     hfsq, frame = load_hfsq(options.out)
-    latents = latents_digest(hfsq)
+    begins_with = {"stage 1": latents_digest(hfsq)}
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     # Before data and music are read, which takes minutes: both refuse another number of layers than stage 1 has.
     denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
@@ -78,6 +79,8 @@ def main(options: Options) -> None:
     condition = options.denoiser.condition
     clips = duet_clips(options, condition, duets, bank, hfsq, frame)
     begin_with(denoiser, options, hfsq, clips)
+    if options.init:
+        begins_with["--init"] = weights_digest(denoiser)
     before = earlier_training(options.init, "denoiser")
     clips += solo_clips(options, condition, hfsq, frame)
     windows = Windows(
@@ -86,13 +89,7 @@ def main(options: Options) -> None:
     optimizer = torch.optim.AdamW(
         denoiser.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
     )
-    run = Run(fabric, stage, denoiser, optimizer, options, options.out / "denoiser", warmup=200)
-    # The saved state has its own stage 1, which --resume has just loaded.
-    if latents_digest(hfsq) != latents:
-        raise ValueError(
-            f"{run.state} is of another stage 1 than {options.out / 'hfsq.safetensors'}, which was trained again "
-            "since: begin without --resume, or put the earlier stage 1 back"
-        )
+    run = Run(fabric, stage, denoiser, optimizer, options, options.out / "denoiser", 200, begins_with)
     height, reactor_height = (
         float(np.mean([body_height(getattr(d, role)) for d in duets.train])) for role in ("leader", "reactor")
     )
@@ -112,10 +109,7 @@ def main(options: Options) -> None:
             write_card(options.out, height, reactor_height, UNFAMILIAR_RATIO * known)
         hfsq.to(fabric.device)
 
-    run.train(lambda random: windows.batch(options.batch, random), finish)
-    if fabric.is_global_zero:
-        finish()
-    fabric.barrier()
+    run.train(lambda random: windows.batch(options.batch, random), finish, finish)
 
 
 def begin_with(denoiser: Denoiser, options: Options, hfsq: Autoencoder, clips: list[Clip]) -> None:

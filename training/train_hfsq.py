@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from lion_pytorch import Lion
 from torch import Tensor, nn
 
-from training.checkpoint import earlier_training, load_hfsq, save_hfsq, start_from
+from training.checkpoint import earlier_training, load_hfsq, save_hfsq, start_from, weights_digest
 from training.command_line import run_program
 from training.config import STREAMS, STRIDE, FrameConfig, HfsqConfig, StreamName, check_latent_frames
 from training.data.duet import Duet
@@ -66,17 +66,19 @@ def main(options: Options) -> None:
     stage = Stage1(autoencoder, options.hfsq)
     trained = [p for p in stage.parameters() if p.requires_grad]
     optimizer = Lion(trained, lr=options.learning_rate, weight_decay=options.weight_decay)
-    run = Run(fabric, stage, autoencoder, optimizer, options, options.out / "hfsq", warmup=100)
+    begins_with = {"--init": weights_digest(autoencoder)} if options.init else {}
+    run = Run(fabric, stage, autoencoder, optimizer, options, options.out / "hfsq", 100, begins_with)
 
     def report() -> None:
         with run.averaged() as model:
             run.logger.write(run.schedule, evaluate(model, duets.val, options.frame))
             run.logger.draw()
 
-    run.train(lambda random: windows.batch(options.batch, random), report)
-    if fabric.is_global_zero:
-        finish(run, clips, duets.val, options, before)
-    fabric.barrier()
+    run.train(
+        lambda random: windows.batch(options.batch, random),
+        report,
+        lambda: finish(run, clips, duets.val, options, before),
+    )
 
 
 def read_clips(options: Options, duets: Split) -> list[Clip]:

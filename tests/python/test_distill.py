@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from tests.python.support.duets import made_duet
 from tests.python.support.small_training import stage1, stage2, write_duets
 from training import distill, train_denoiser, train_hfsq
 from training.checkpoint import load_model, read_config
-from training.config import STRIDE
+from training.config import STRIDE, write_json
 from training.denoiser.clips import Augmentation, make_clip
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.model import Model
@@ -108,23 +109,24 @@ def test_frames_that_no_dance_fills_do_not_count(tiny: Model, batch: Batch) -> N
 
 
 def test_the_song_part_is_weighted_by_the_constant_and_is_of_what_the_song_changes(
-    tiny: Model, batch: Batch, monkeypatch: pytest.MonkeyPatch
+    tiny: Model, batch: Batch
 ) -> None:
     """MUSIC_WEIGHT times the mean square of the error with the song less that without it."""
     stage = Distillation(tiny.denoiser, tiny.denoiser, tiny.diffusion)
-    n = len(batch.latents)
-    # A student that says zero: its errors are what the teacher samples.
-    monkeypatch.setattr(distill, "predict", lambda network, x, *rest: torch.zeros_like(x))
-    wanted = torch.randn(3 * n, *batch.latents.shape[1:])
-    monkeypatch.setattr(stage, "_sample_teacher", lambda *given: wanted)
+    torch.manual_seed(7)
     _, parts = stage(batch)
+    torch.manual_seed(7)
+    noise = torch.randn_like(batch.latents).repeat(3, 1, 1, 1)
+    memory, keep = stage._branches(batch)
+    given = (noise, memory, batch.valid.repeat(3, 1), keep)
+    error = distill.predict(tiny.denoiser, *given, stage.steps[0]) - stage._sample_teacher(*given)
+    with_song, silent, unconditional = error.split(len(batch.latents))
     mean = distill.WeightedSquares(batch.valid, 2)
+    assert float(parts["music"]) > 0
     assert float(parts["music"]) == pytest.approx(
-        distill.MUSIC_WEIGHT * float(mean(wanted[:n] - wanted[n : 2 * n])), rel=1e-5
+        distill.MUSIC_WEIGHT * float(mean(with_song - silent)), rel=1e-5
     )
-    assert float(parts["conditions"]) == pytest.approx(
-        float(mean(wanted[n : 2 * n] - wanted[2 * n :])), rel=1e-5
-    )
+    assert float(parts["conditions"]) == pytest.approx(float(mean(silent - unconditional)), rel=1e-5)
 
 
 def test_the_loss_falls_and_the_condition_stays(tiny: Model, batch: Batch) -> None:
@@ -188,6 +190,22 @@ def test_the_program_leaves_a_checkpoint_that_samples_in_one_step_and_goes_on(
         not torch.equal(value, taught.denoiser.state_dict()[key])
         for key, value in student.denoiser.state_dict().items()
     )
+
+
+def test_a_student_does_not_go_on_with_another_teacher(trained: tuple[Path, Path], tmp_path: Path) -> None:
+    """The checkpoint would name a teacher that it has not learnt from."""
+    data, teacher = trained
+    distill.main(options(data, teacher, tmp_path / "out"))
+    for name, change in (("teacher", {}), ("sampling of the teacher", {"steps": 5})):
+        other = tmp_path / name
+        shutil.copytree(teacher, other)
+        if change:
+            config = read_config(other, "denoiser")
+            write_json(other / "denoiser.json", config | {"diffusion": config["diffusion"] | change})
+        else:
+            train_denoiser.main(stage2(data, other, seed=1))
+        with pytest.raises(ValueError, match=f"state.ckpt: it is of another {name} than there is now"):
+            distill.main(options(data, other, tmp_path / "out", steps=4, resume=True))
 
 
 def test_options_that_would_be_ignored_or_overwrite_the_teacher_are_refused(tmp_path: Path) -> None:

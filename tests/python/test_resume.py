@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -39,6 +41,17 @@ def stop_before(step_of: Callable[..., None], step: int, error: BaseException) -
     return stopping
 
 
+def interrupt_in(step_of: Callable[..., None], step: int) -> Callable[..., None]:
+    """A training step in the middle of which Ctrl-C is pressed, in the one with this number."""
+
+    def pressing(run: Run, batch: object) -> None:
+        if run.schedule.step + 1 == step:
+            os.kill(os.getpid(), signal.SIGINT)
+        step_of(run, batch)
+
+    return pressing
+
+
 def test_training_resumes_where_it_stopped(data: Path, tmp_path: Path) -> None:
     """Weights and log are those of a training that did not stop."""
     whole, stopped = stage1(data, tmp_path / "whole", steps=4), stage1(data, tmp_path / "stopped", steps=4)
@@ -65,7 +78,7 @@ def test_no_step_is_lost_by_an_interruption_or_at_the_end(data: Path, tmp_path: 
         return torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)["step"]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, 3, KeyboardInterrupt()))
+        patch.setattr("training.train_hfsq.Run._step", interrupt_in(Run._step, 3))
         with pytest.raises(SystemExit, match="stopped after step 3; go on with --resume"):
             train_hfsq.main(options)
     assert saved_step() == 3

@@ -17,7 +17,7 @@ from torch import Tensor, nn
 
 from training.baselines.method import BaselineConfig, Known, Method, Name, Window
 from training.baselines.trained import make_method
-from training.checkpoint import load_hfsq, save_weights
+from training.checkpoint import load_hfsq, save_weights, weights_digest
 from training.command_line import run_program
 from training.config import STRIDE, ConditionConfig
 from training.data.music_pairing import build_music_bank, variants
@@ -94,19 +94,22 @@ def main(options: Options) -> None:
         method.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
     )
     stage = Training(method, hfsq)
-    run = Run(fabric, stage, method, optimizer, options, options.out / "baseline", warmup=200)
+    begins_with = {"stage 1": weights_digest(hfsq)}
+    run = Run(fabric, stage, method, optimizer, options, options.out / "baseline", 200, begins_with)
     height = float(np.mean([body_height(duet.leader) for duet in duets.train]))
 
     def finish() -> None:
         with run.averaged() as averaged:
             provenance = run.provenance("training.baselines", leave_out=())
-            values = {"baseline": asdict(config), "reference_height": height, "provenance": provenance}
+            values = {
+                "baseline": asdict(config),
+                "stage_1": begins_with["stage 1"],
+                "reference_height": height,
+                "provenance": provenance,
+            }
             save_weights(options.out, "baseline", averaged, values)
 
-    run.train(lambda random: windows.batch(options.batch, random), finish)
-    if fabric.is_global_zero:
-        finish()
-    fabric.barrier()
+    run.train(lambda random: windows.batch(options.batch, random), finish, finish)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from training.baselines.gesturelsm import GestureLsm
 from training.baselines.intergen import InterGen
 from training.baselines.method import BaselineConfig, Known, Method
 from training.baselines.tcdiff import TcDiff
-from training.checkpoint import load_hfsq, read_config, start_from
+from training.checkpoint import load_hfsq, read_config, start_from, weights_digest
 from training.config import STREAMS, DiffusionConfig, FrameConfig, from_json
 from training.diffusion.decode import decode, decoded_joints
 from training.diffusion.react import at_height, music_of_length, scale_to
@@ -64,9 +64,14 @@ def make_method(config: BaselineConfig, hfsq: Autoencoder) -> Method:
 
 
 def load_baseline(folder: Path) -> Baseline:
-    """A trained baseline of a folder that `training.baselines` has written."""
+    """A trained baseline of a folder that `training.baselines` has written.
+
+    Raises ValueError where stage 1 of the folder is not the one that it was trained on.
+    """
     hfsq, frame = load_hfsq(folder)
     values = read_config(folder, "baseline")
+    if values["stage_1"] != weights_digest(hfsq):
+        raise ValueError(f"{folder / 'baseline.safetensors'} was trained on another stage 1: train it again")
     config = from_json(BaselineConfig, values["baseline"])
     method = make_method(config, hfsq)
     start_from(method, folder, "baseline")

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import torch
 from safetensors.torch import load_file
@@ -41,9 +42,8 @@ def main(options: Options) -> None:
     configs = [read_config(folder, "denoiser") for folder in options.checkpoints]
     stage1 = (first / "hfsq.safetensors").read_bytes()
     for folder, config in zip(others, configs[1:], strict=True):
-        if config["denoiser"]["depths"] != configs[0]["denoiser"]["depths"] or (
-            (folder / "hfsq.safetensors").read_bytes() != stage1
-        ):
+        is_same_network = _network(config) == _network(configs[0])
+        if not is_same_network or (folder / "hfsq.safetensors").read_bytes() != stage1:
             raise ValueError(f"{folder} is of another model or another stage 1 than {first}")
     hfsq, _ = load_hfsq(first)
     denoiser, diffusion = load_denoiser(first, hfsq)
@@ -57,6 +57,15 @@ def main(options: Options) -> None:
     copy_stage1(first, options.out)
     copy_card(first, options.out)
     save_denoiser(options.out, hfsq, denoiser, diffusion, provenance)
+
+
+def _network(config: dict[str, Any]) -> dict[str, Any]:
+    """What a denoiser.json says of the network, without the shares that are dropped in training, in which tunings may
+    differ.
+    """
+    denoiser = config["denoiser"]
+    condition = {name: denoiser["condition"][name] for name in ("leader", "music", "depth")}
+    return {name: value for name, value in denoiser.items() if name != "dropout"} | {"condition": condition}
 
 
 if __name__ == "__main__":

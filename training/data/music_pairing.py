@@ -12,12 +12,14 @@ from typing import Literal
 
 import numpy as np
 
+from training.data import augment
 from training.data.augment import warp_factor, warped_length
 from training.data.duet import Duet
 from training.data.splits import Split
 from training.data.step_tempo import duet_tempo
 from training.music import features as features_module
 from training.music import stretch, synth
+from training.music import tempo as tempo_module
 from training.music.features import SONG_SUFFIXES, features, load_audio
 from training.music.recipe import AudioRecipe
 from training.music.tempo import Tempo
@@ -139,8 +141,9 @@ def _digest(*parts: bytes) -> str:
 
 def _source_code() -> bytes:
     """Source text of the modules that make the music: part of a cache key, so that a change renews the cache."""
-    modules = (features_module, stretch, synth)
-    return "\n".join(Path(str(module.__file__)).read_text() for module in modules).encode()
+    modules = (augment, features_module, stretch, synth, tempo_module)
+    files = (__file__, *(str(module.__file__) for module in modules))
+    return "\n".join(Path(file).read_text() for file in files).encode()
 
 
 def _cached(path: Path | None, make: Callable[[], np.ndarray]) -> np.ndarray:

@@ -98,7 +98,9 @@ class Windows:
         shift = int(random.integers(-self.config.leader_shift, self.config.leader_shift + 1))
         shift *= int(random.integers(2))
         features = clip.blurred if random.random() < self.config.blurred else clip.features
-        features = slice_padded(features, STRIDE * low + shift, STRIDE * high + shift)
+        # Before and after the dance the leader stands still, so that the shift brings in nothing that is no pose.
+        frames = torch.arange(STRIDE * low, STRIDE * high) + shift
+        features = features[frames.clamp(0, len(features) - 1)]
         if clip.music:
             music = clip.music[int(random.integers(len(clip.music)))]
         else:
@@ -110,7 +112,7 @@ class Windows:
             music_valid[int(random.integers(len(music_valid))) :] = 0
         valid = torch.zeros(block)
         valid[: stop - start] = 1
-        frames = (STRIDE * start, STRIDE * (start + block))
+        shown = (STRIDE * start, STRIDE * (start + block))
         return (
             slice_padded(clip.latents, start, start + block) * valid[:, None, None],
             valid,
@@ -119,7 +121,7 @@ class Windows:
             music_valid,
             inside,
             torch.tensor(clip.role),
-            slice_padded(clip.leader, *frames),
-            slice_padded(clip.reactor, *frames),
-            slice_padded(clip.heading, *frames),
+            slice_padded(clip.leader, *shown),
+            slice_padded(clip.reactor, *shown),
+            slice_padded(clip.heading, *shown),
         )

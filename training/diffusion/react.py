@@ -43,7 +43,7 @@ class Request:
 def react(model: ReactionModel, request: Request) -> np.ndarray:
     """The reactor (T, 22, 3) metres, as much smaller or taller than the model's reference as the leader is.
 
-    Raises ValueError for guidance at every step with an exported model.
+    Raises ValueError for guidance at every step with an exported model, or with a variety other than 1.
     """
     sampling = model.sampling
     height = sampling.reference_height
@@ -62,6 +62,8 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
     if request.at_every_step:
         if not isinstance(model, Model):
             raise ValueError("guidance at every step needs a checkpoint, not an exported model")
+        if variety != 1:
+            raise ValueError(f"guidance at every step has no variety, got {variety:g} instead of 1")
         guidance = torch.tensor([[coarse, fine]] * len(STREAMS))
         latents = sample_guided_at_every_step(model, memory, silent, initial, steps, guidance, weight)
         fine = 0.0

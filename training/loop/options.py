@@ -15,7 +15,7 @@ from training.data.sources import read_split
 from training.data.splits import Split, summary
 from training.denoiser.clips import Augmentation
 
-Precision = Literal["32-true", "bf16-mixed", "16-mixed"]
+Precision = Literal["32-true", "bf16-mixed"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,6 +103,7 @@ class WindowOptions(LoopOptions):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_latent_frames("stride", self.stride)
+        check_limits(self, synths=(0, math.inf))
 
 
 def read_duets_to_train(options: LoopOptions, fabric: Fabric, window: int) -> Split:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import os
+import signal
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, fields, is_dataclass
 from pathlib import Path
@@ -21,7 +23,15 @@ from training.loop.schedule import Schedule, learning_rate
 
 
 def launch(options: LoopOptions) -> Fabric:
-    """Fabric on the options' devices, this process among them."""
+    """Fabric on the options' devices, this process among them.
+
+    Raises ValueError where torchrun started another number of processes: each would train by itself.
+    """
+    started = int(os.environ.get("WORLD_SIZE", options.devices))
+    if started != options.devices:
+        raise ValueError(
+            f"{started} processes were started for --devices {options.devices}: give --devices {started}"
+        )
     if options.threads:
         torch.set_num_threads(options.threads)
     fabric = Fabric(
@@ -38,11 +48,11 @@ def fast_precision() -> Precision:
 
 
 MAY_DIFFER = (
-    "devices", "evaluate-every", "log-every", "minutes", "music-cache", "music-guidance", "out", "precision", "resume",
-    "steps", "threads",
+    "devices", "evaluate-every", "log-every", "minutes", "music-cache", "music-fade", "music-guidance", "out",
+    "precision", "resume", "steps", "threads",
 )  # fmt: skip
-"""Options that a training may go on with in other values: those of its length, its machine and its report, and the
-default weight of a student, of which nothing is learnt."""
+"""Options that a training may go on with in other values: those of its length, its machine and its report, and how a
+student weights the music by default, of which nothing is learnt."""
 
 
 def flat_options(options: Any, prefix: str = "") -> dict[str, str]:
@@ -59,6 +69,24 @@ def flat_options(options: Any, prefix: str = "") -> dict[str, str]:
     return flat
 
 
+@contextmanager
+def interruption() -> Iterator[Callable[[], bool]]:
+    """Whether Ctrl-C was pressed, asked between steps so that none is cut in two. Pressed again it stops at once."""
+    is_pressed = False
+
+    def press(*_: Any) -> None:
+        nonlocal is_pressed
+        if is_pressed:
+            raise KeyboardInterrupt
+        is_pressed = True
+
+    before = signal.signal(signal.SIGINT, press)
+    try:
+        yield lambda: is_pressed
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 class Run(Generic[M]):
     """One training: steps under Fabric, an EMA of the model, logs, and a state to go on from."""
 
@@ -71,9 +99,13 @@ class Run(Generic[M]):
         options: LoopOptions,
         folder: Path,
         warmup: int,
+        begins_with: Mapping[str, str],
     ) -> None:
-        """stage: from a batch to the loss and its parts; model: what of it is trained, averaged and saved."""
+        """stage: from a batch to the loss and its parts; model: what of it is trained, averaged and saved; begins_with:
+        digests, by name, of the weights that the training begins with or learns from, which --resume has to find again.
+        """
         self.fabric, self.model, self.options, self.warmup = fabric, model, options, warmup
+        self.begins_with = dict(begins_with)
         self.ema = Ema(model, options.ema_decay)
         self.ema.module.to(fabric.device)
         self.stage, self.optimizer = fabric.setup(stage, optimizer)
@@ -83,35 +115,48 @@ class Run(Generic[M]):
             self.load()
         self.logger = Logger(folder, fabric.is_global_zero, self.schedule.step)
 
-    def train(self, next_batch: Callable[[np.random.Generator], Any], evaluate: Callable[[], None]) -> None:
-        """Steps until the schedule ends; `evaluate` on rank 0 every so many. The state is saved then, at the end and on
-        Ctrl-C.
+    def train(
+        self,
+        next_batch: Callable[[np.random.Generator], Any],
+        evaluate: Callable[[], None],
+        finish: Callable[[], None],
+    ) -> None:
+        """Steps until the schedule ends. On rank 0 `evaluate` is called every so many steps, and `finish` at the end.
+        The state is saved before each, and on Ctrl-C.
 
         Random numbers depend on the seed, the rank and the step of the last evaluation alone: a training that goes on
         from one draws those that it would have drawn. `next_batch` draws from the generator it is given, the stage from
         torch's.
         """
-        try:
-            self._steps(next_batch, evaluate)
-        except KeyboardInterrupt:
-            # Saving waits for all ranks, and another one may not have been stopped.
-            if self.fabric.world_size > 1:
-                raise
-            self.save()
-            raise SystemExit(f"stopped after step {self.schedule.step}; go on with --resume") from None
+        with interruption() as is_interrupted:
+            self._steps(next_batch, evaluate, is_interrupted)
         self.save()
+        if self.fabric.is_global_zero:
+            finish()
+        self.fabric.barrier()
 
-    def _steps(self, next_batch: Callable[[np.random.Generator], Any], evaluate: Callable[[], None]) -> None:
+    def _steps(
+        self,
+        next_batch: Callable[[np.random.Generator], Any],
+        evaluate: Callable[[], None],
+        is_interrupted: Callable[[], bool],
+    ) -> None:
         random = self._seed()
         while self.schedule.progress < 1:
             self._step(next_batch(random))
             if self.schedule.step % self.options.log_every == 0:
                 self.logger.write(self.schedule)
-            if self.schedule.step % self.options.evaluate_every == 0:
+            if self.schedule.step % self.options.evaluate_every == 0 and self.schedule.progress < 1:
                 self.save()
                 if self.fabric.is_global_zero:
                     evaluate()
                 random = self._seed()
+            if is_interrupted():
+                # Saving waits for all ranks, and another one may not have been stopped.
+                if self.fabric.world_size > 1:
+                    raise KeyboardInterrupt
+                self.save()
+                raise SystemExit(f"stopped after step {self.schedule.step}; go on with --resume")
 
     def _seed(self) -> np.random.Generator:
         """Seeds torch, and gives a generator for batches."""
@@ -159,6 +204,7 @@ class Run(Generic[M]):
             "ema": self.ema.module.state_dict(),
             "updates": self.ema.updates,
             "options": flat_options(self.options),
+            "begins_with": self.begins_with,
             "step": self.schedule.step,
             "spent": self.schedule.spent,
         }
@@ -175,13 +221,20 @@ class Run(Generic[M]):
         if not self.state.exists():
             raise FileNotFoundError(f"{self.state} is missing: there is nothing to go on from with --resume")
         with naming(self.state):
-            before, now = self.fabric.load(self.state)["options"], flat_options(self.options)
+            saved = self.fabric.load(self.state)
+            before, now = saved["options"], flat_options(self.options)
             differ = [name for name in before | now if before.get(name) != now.get(name)]
             if wrong := [name for name in differ if name not in MAY_DIFFER]:
                 were = ", ".join(f"--{name} (it was {before.get(name, 'not there')})" for name in wrong)
                 raise ValueError(
                     f"--resume goes on with the same training, but these options differ: {were}; give them as they "
                     "were, or begin another training from its checkpoint with --init"
+                )
+            if other := [
+                name for name, digest in self.begins_with.items() if saved["begins_with"][name] != digest
+            ]:
+                raise ValueError(
+                    f"it is of another {other[0]} than there is now: begin without --resume, or put the earlier back"
                 )
             parts = {"model": self.stage, "optimizer": self.optimizer}
             rest = self.fabric.load(self.state, parts, strict=True)

@@ -64,11 +64,22 @@ def test_leader_shift_moves_the_leader_features_alone(clip: Clip) -> None:
         start = int(batch.music[n, STRIDE * MARGIN, 0])
         assert torch.equal(batch.reactor[n], clip.reactor[start : start + STRIDE * BLOCK])
         seen = batch.features[n, STRIDE * MARGIN]
-        found = [s for s in range(-3, 4) if start + s >= 0 and torch.equal(seen, clip.features[start + s])]
-        assert found or start == 0, "before the clip there is nothing"
-        shifts += found
+        found = [s for s in range(-3, 4) if torch.equal(seen, clip.features[max(0, start + s)])]
+        assert found
+        shifts += found if start else []
     assert set(shifts) == set(range(-3, 4))
     assert shifts.count(0) > 20, "half of the windows are left as they are"
+
+
+def test_a_shifted_leader_holds_its_first_and_last_pose(clip: Clip) -> None:
+    """Zeros would be no pose, and far from every leader of training."""
+    batch = windows(clip, replace(PLAIN, leader_shift=3)).batch(
+        60, np.random.default_rng(0), short=0.0, song_ends=0.0, ends=1.0
+    )
+    poses = {tuple(row) for row in clip.features.tolist()}
+    for n in range(60):
+        inside = batch.features[n, batch.inside[n].repeat_interleave(STRIDE) > 0]
+        assert all(tuple(row) in poses for row in inside.tolist())
 
 
 def test_blurred_leader_features_keep_their_mean_and_lose_acceleration(clip: Clip) -> None:

@@ -23,6 +23,7 @@ BLOCK = 60
 LENGTHS = sorted({n for b in range(1, 11) for n in (b * BLOCK + d for d in (-59, -30, -1, 0))})
 # Numbers of steps and last times; the steps of 7 and 25 to 0.1 do not divide the timesteps evenly.
 SCHEDULES = [(count, last) for last in (0.1, 0.25) for count in (1, 2, 3, 4, 7, 10, 25, 50)]
+SCHEDULES += [(2, 0.0125)]  # half a timestep, which languages round differently
 ALPHAS = alphas_cumprod(DiffusionConfig())
 
 

@@ -96,8 +96,8 @@ def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: lis
     stored = json.loads((tmp_path / "metrics.json").read_text())
     assert stored["model"] == "formula"
     assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] == pytest.approx(by_hand)
-    assert [result["name"] for result in stored["bars"]] == [result.name for result in required]
-    assert "solved: MPJPE, mm" in {result["name"] for result in stored["quality"]}
+    assert [result["name"] for result in stored["required"]] == [result.name for result in required]
+    assert "solved: MPJPE, mm" in {result["name"] for result in stored["targets"]}
     text = (tmp_path / "report.md").read_text()
     for part in (
         "reconstruction",

@@ -58,6 +58,13 @@ def test_the_pages_solver_keeps_bones_rigid():
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
+def test_what_node_says_of_a_failure_is_said():
+    motion = made_duet(60, 1).leader
+    with pytest.raises(ValueError, match=r"(?s)tools/solve\.mjs failed: .*--no-such-flag"):
+        solve_with_node([motion], motion, None, "--no-such-flag")
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
 def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
     """A dancer inside the leader is moved aside over the floor, no farther than needed; only arms, which hold the
     leader's hands, leave their height.
@@ -274,7 +281,7 @@ def test_the_shipped_numbers_are_those_of_the_held_out_checkpoint(tmp_path: Path
     checkpoint = CHECKPOINTS / "salsa-held-out"
     stored = json.loads((SHIPPED / "metrics.json").read_text())
     assert stored["model"] == json.loads((checkpoint / "card.json").read_text())["id"]
-    assert all(result["passed"] for result in stored["bars"])
+    assert all(result["passed"] for result in stored["required"])
     data = real_file("cmu_salsa/duets.npz")
     write_model(load_model(checkpoint), Card(**read_card(checkpoint)), tmp_path, Scene(240, silent_from=200))
     model = open_model(tmp_path, threads=1)

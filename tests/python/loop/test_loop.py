@@ -79,7 +79,7 @@ def run_of(tmp_path: Path, **changes: object) -> Run[Slope]:
     options = stage1(Path("duets.npz"), tmp_path, learning_rate=0.5, steps=1000, **changes)
     slope = Slope()
     optimizer = torch.optim.SGD(slope.parameters(), lr=1.0)
-    return Run(Fabric(accelerator="cpu"), slope, slope, optimizer, options, tmp_path, warmup=4)
+    return Run(Fabric(accelerator="cpu"), slope, slope, optimizer, options, tmp_path, 4, {})
 
 
 def test_a_step_goes_down_its_own_gradient_no_longer_than_1_at_the_rate_of_the_schedule(

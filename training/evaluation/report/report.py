@@ -138,13 +138,13 @@ def write_report(
     """metrics.json, report.md, pictures and videos into a folder, the table on the screen.
 
     facts: what was measured (model, data, commit), kept at the head of metrics.json. Returns the results of the
-    required thresholds; metrics.json has them as `bars`, the targets as `quality`.
+    required thresholds; metrics.json has them as `required`, and the `targets` beside them.
     """
     out.mkdir(parents=True, exist_ok=True)
     numbers = evaluation.numbers
     required, targets = check_required(numbers), check_targets(numbers)
     head = {"format": "reactdance-metrics", "version": 1, **facts}
-    results = {"bars": _json_results(required), "quality": _json_results(targets)}
+    results = {"required": _json_results(required), "targets": _json_results(targets)}
     (out / "metrics.json").write_text(json.dumps(_json_values(head | numbers | results), indent=1) + "\n")
     drawn = draw(held_out, evaluation, out, FILMSTRIPS) if pictures else []
     filmed = film(held_out, evaluation, out) if videos else []
