@@ -58,4 +58,5 @@ def playful(dance: Dance) -> None:
     play.hops(dance)
 
 
-DANCES = {tell.__name__: tell for tell in (slow, quick, turning, playful)}
+DANCES = {"slow": (slow, 4), "quick": (quick, 5), "turning": (turning, 7), "playful": (playful, 7)}
+"""By name what is danced, and the seed of its small irregularities."""

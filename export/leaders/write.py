@@ -41,9 +41,10 @@ class Options:
 def leader(name: str) -> np.ndarray:
     """(T, 22, 3) metres of one of `DANCES`; over its whole length the dancer stays about the middle of the floor."""
     dance = Dance()
-    DANCES[name](dance)
+    tell, seed = DANCES[name]
+    tell(dance)
     frames = round((FIRST + dance.count * 60 / Song.bpm + ENDING) * FPS)
-    motion = joints_of(dance, Song.bpm, FIRST, frames, seed=len(name))
+    motion = joints_of(dance, Song.bpm, FIRST, frames, seed=seed)
     middle = (motion[:, 0].max(axis=0) + motion[:, 0].min(axis=0)) / 2
     return (motion - middle * [1, 0, 1]).astype(np.float32)
 

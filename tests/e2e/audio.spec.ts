@@ -294,6 +294,16 @@ test.describe('the player', () => {
     );
   });
 
+  test('reports a song that does not start at its place in the dance', async ({ page }) => {
+    await call(page, 'player.setSongStart', 0.3);
+    await call(page, 'setSound', 'nonsense', 10);
+    expect(await call(page, 'play')).toBeNull();
+    await expect.poll(() => call(page, 'failures')).toEqual(['playback-refused']);
+    const times = (await call<[number, number][]>(page, 'watch', 0.3)).map(([, time]) => time);
+    expect(new Set(times).size).toBe(1);
+    expect(times[0]).toBeGreaterThanOrEqual(0.3);
+  });
+
   test('is silent past the end of a dance that is shorter than the song', async ({ page }) => {
     await call(page, 'setSound', 'song', 2);
     await call(page, 'player.seek', 1);

@@ -10,15 +10,11 @@ import { type AudioRecipe, frameCount } from './recipe';
 import { magnitudes } from './dsp/stft';
 import { beatPeriod } from './dsp/tempo';
 
-/** The features of a song that the model is conditioned on, and its tempo and beats. */
+/** The features of a song that the model is conditioned on. */
 export interface MusicFeatures {
   readonly frames: number;
   /** frames x recipe.features: MFCC, their deltas, chroma, onset strength, beat */
   readonly features: Float32Array;
-  /** Beats per minute as the model's beats were tracked, in whole frames a beat; 0 when the song has no onset. */
-  readonly tempo: number;
-  /** Seconds of the model's beats, ascending. */
-  readonly beats: number[];
 }
 
 /** Shares of the running time, as measured on a three-minute song; used for the progress only. */
@@ -64,13 +60,10 @@ export function musicFeatures(
 
   const cepstra = cepstrum(mel, recipe);
   const onset = onsetStrength(percussiveMel, recipe);
-  const hasOnsets = onset.some((value) => value !== 0);
-  const period = hasOnsets ? beatPeriod(onset, recipe) : 0;
-  const beatFrames = hasOnsets ? trackBeats(onset, period, recipe.tightness) : [];
   const beats = new Float64Array(frames);
-  for (const frame of beatFrames) beats[frame] = 1;
+  if (onset.some((value) => value !== 0))
+    for (const frame of trackBeats(onset, beatPeriod(onset, recipe), recipe.tightness)) beats[frame] = 1;
 
-  const framesPerSecond = recipe.sample_rate / recipe.hop;
   const features = interleave(frames, recipe.features, [
     { values: cepstra, columns: mfcc },
     { values: delta(cepstra, mfcc, recipe.delta_width), columns: mfcc },
@@ -79,12 +72,7 @@ export function musicFeatures(
     { values: beats, columns: 1 },
   ]);
   onProgress(1);
-  return {
-    frames,
-    features,
-    tempo: hasOnsets ? (60 * framesPerSecond) / period : 0,
-    beats: beatFrames.map((frame) => frame / framesPerSecond),
-  };
+  return { frames, features };
 }
 
 /** Puts blocks of columns side by side: frames x width. */

@@ -27,6 +27,8 @@ const MIN_TIMER_MS = 4;
  * idle one waits at the start of the loop, so that there is neither a gap nor a click.
  */
 export class AudioPlayer {
+  /** Is told when playback stops by itself: the song could not be started later, at its place in the dance or in a loop. */
+  onFailure: ((error: AppError) => void) | null = null;
   readonly #elements = new AudioElementPair();
   readonly #clock = new PlaybackClock();
   #songStart = 0;
@@ -98,12 +100,7 @@ export class AudioPlayer {
     } catch (cause) {
       if (isAbort(cause)) return;
       this.#playing = false;
-      throw new AppError(
-        'playback-refused',
-        'The browser did not start the sound.',
-        'Press play again; some browsers only allow sound after a click on the page.',
-        { cause },
-      );
+      throw playbackRefused(cause);
     }
   }
 
@@ -180,7 +177,9 @@ export class AudioPlayer {
   /** A pause, a seek or a new song ends a start under way with an AbortError, which is no failure. */
   #syncInBackground(time?: number): void {
     this.#syncSong(time).catch((error: unknown) => {
-      if (!isAbort(error)) this.#playing = false;
+      if (isAbort(error) || !this.#playing) return;
+      this.pause();
+      this.onFailure?.(playbackRefused(error));
     });
   }
 
@@ -230,6 +229,15 @@ export class AudioPlayer {
 
 /** What the page uses of the player. */
 export type Player = Pick<AudioPlayer, keyof AudioPlayer>;
+
+function playbackRefused(cause: unknown): AppError {
+  return new AppError(
+    'playback-refused',
+    'The browser did not start the sound.',
+    'Press play again; some browsers only allow sound after a click on the page.',
+    { cause },
+  );
+}
 
 function isAbort(error: unknown): boolean {
   return (error as Error).name === 'AbortError';

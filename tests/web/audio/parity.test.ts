@@ -1,6 +1,13 @@
 import { afterAll, describe, expect, it } from 'vitest';
 import { type MusicFeatures, musicFeatures } from '../../../web/audio/features';
-import { agreement, beatAgreement, beatFrames, columnGroups } from '../support/audio/feature-parity';
+import { beatPeriod } from '../../../web/audio/dsp/tempo';
+import {
+  agreement,
+  beatAgreement,
+  beatFrames,
+  columnGroups,
+  onsetStrength,
+} from '../support/audio/feature-parity';
 import { recipe, type ReferenceSong, songs } from '../support/audio/audio-fixtures';
 import { absence, loadRealSongs, realSongs } from '../support/audio/real-songs';
 import { processorSeconds } from '../support/processor-time';
@@ -20,7 +27,8 @@ function compare({ name, audio, features: reference, tempo }: ReferenceSong): vo
   const seconds = processorSeconds(() => (ours = musicFeatures(audio, recipe)));
   expect(ours.features.length, name).toBe(reference.length);
   expect(ours.frames * recipe.features, name).toBe(reference.length);
-  expect(ours.tempo, name).toBeCloseTo(tempo, 6);
+  const period = beatPeriod(Float64Array.from(onsetStrength(ours.features, recipe)), recipe);
+  expect((60 * recipe.sample_rate) / recipe.hop / period, `${name}: tempo`).toBeCloseTo(tempo, 6);
 
   const cells = agreement(ours.features, reference, recipe).map(({ group, correlation, difference }) => {
     expect.soft(correlation, `${name}: correlation of ${group}`).toBeGreaterThanOrEqual(0.999999);
@@ -30,7 +38,6 @@ function compare({ name, audio, features: reference, tempo }: ReferenceSong): vo
   const beats = beatFrames(ours.features, recipe);
   const beatScore = beatAgreement(beats, beatFrames(reference, recipe), 1);
   expect.soft(beatScore, `${name}: beats`).toBeGreaterThanOrEqual(0.95);
-  expect(beats.map((frame) => (frame * recipe.hop) / recipe.sample_rate)).toEqual(ours.beats);
 
   const length = (audio.length / recipe.sample_rate).toFixed(0);
   const title = name

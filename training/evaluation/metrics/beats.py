@@ -13,9 +13,11 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import argrelmin
 
+from training.music.recipe import MUSIC_FEATURES
+
 SMOOTHING = 5.0  # frames, standard deviation of the filter on the speed
 TOLERANCE = 3.0  # frames, standard deviation of the score
-BEAT_COLUMN = 53  # of the music features: 1 at a beat
+BEAT_COLUMN = MUSIC_FEATURES - 1  # 1 at a beat
 
 
 def motion_beats(motion: np.ndarray) -> np.ndarray:

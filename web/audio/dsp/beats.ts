@@ -1,4 +1,4 @@
-import { median } from './onset';
+import { sortedMedian } from './onset';
 
 /**
  * Beats by dynamic programming (Ellis 2007; `librosa.beat.beat_track` with trimming): the frames that lie on strong
@@ -78,7 +78,7 @@ function lastBeat(total: Float64Array): number {
     i > 0 && total[i]! > total[i - 1]! && (i === last || total[i]! >= total[i + 1]!);
   const maxima = Array.from(total.keys()).filter(isMaximum);
   if (maxima.length === 0) return last;
-  const threshold = 0.5 * median(Float64Array.from(maxima, (i) => total[i]!));
+  const threshold = 0.5 * sortedMedian(Float64Array.from(maxima, (i) => total[i]!));
   return maxima.findLast((i) => total[i]! >= threshold) ?? last;
 }
 

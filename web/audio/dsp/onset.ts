@@ -21,13 +21,13 @@ export function onsetStrength(mel: Float64Array, recipe: AudioRecipe): Float64Ar
       const before = decibels[(frame - lag) * mels + band]!;
       rises[band] = Math.max(0, decibels[frame * mels + band]! - before);
     }
-    strength[frame + delay] = median(rises);
+    strength[frame + delay] = sortedMedian(rises);
   }
   return strength;
 }
 
 /** Sorts the values, at least one, and returns their median: of an even number, the mean of the middle two. */
-export function median(values: Float64Array): number {
+export function sortedMedian(values: Float64Array): number {
   values.sort();
   const middle = values.length >> 1;
   return values.length % 2 === 1 ? values[middle]! : (values[middle - 1]! + values[middle]!) / 2;

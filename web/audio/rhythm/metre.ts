@@ -35,7 +35,7 @@ export function metreOf(beats: readonly number[], accents: Accents): Metre {
   const accent = harmonyChanges(beats, accents, beatsPerBar).map(
     (change, beat) => HARMONY_WEIGHT * change + bass[beat]! + onset[beat]!,
   );
-  const bar = strongestPhase(accent, beatsPerBar, 0);
+  const bar = strongestPhase(accent, beatsPerBar);
   const phases = phaseMeans(accent, 2 * beatsPerBar);
   const later = phases[bar + beatsPerBar]! > phases[bar]! + LATER_MARGIN;
   return { beatsPerBar, first: later ? bar + beatsPerBar : bar };
@@ -56,8 +56,8 @@ export function phaseMeans(values: readonly number[], count: number): number[] {
   });
 }
 
-function strongestPhase(values: readonly number[], count: number, first: number): number {
-  const means = phaseMeans(values.slice(first), count);
+function strongestPhase(values: readonly number[], count: number): number {
+  const means = phaseMeans(values, count);
   return means.indexOf(Math.max(...means));
 }
 

@@ -22,7 +22,7 @@ export interface Golden {
   readonly reactor: Float32Array;
 }
 
-/** Largest number of motion frames of a golden sampling; what is exported has 600. */
+/** Largest number of motion frames of a golden sampling; what is exported has 480. */
 const MAX_FRAMES = 10_000;
 
 /**

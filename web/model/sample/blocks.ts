@@ -5,7 +5,7 @@ export interface Block {
 }
 
 /**
- * Cut a clip into blocks (block-wise local conditioning, paper 3.4).
+ * Cut a clip into blocks (blockwise local context, paper 3.4).
  * @param latents length of the clip in latent frames
  * @param size latent frames of a full block
  * @returns blocks in order; the last one may be short

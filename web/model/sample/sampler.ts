@@ -22,7 +22,7 @@ export interface Sampling {
 }
 
 /**
- * Samples the latents of a whole clip by DDIM, block by block (block-wise local conditioning, paper 3.4): no block needs
+ * Samples the latents of a whole clip by DDIM, block by block (blockwise local context, paper 3.4): no block needs
  * another, so some of them go through all steps before the others do.
  * @returns latents x layers x channels, normalised
  * @throws the signal's reason, between two graph runs

@@ -99,9 +99,9 @@ export function clampedTo(value: number, { min, max }: Pick<Range, 'min' | 'max'
   return Math.min(max, Math.max(min, value));
 }
 
-/** The value, clamped to the range and rounded to the step. */
+/** The value, rounded to the step and clamped to the range, whose upper end may lie between two steps. */
 export function clampedToStep(value: number, range: Range): number {
-  return toStep(clampedTo(value, range), range.step, range.min);
+  return clampedTo(toStep(value, range.step, range.min), range);
 }
 
 /** `1.20 coarse, 0.60 fine, 3.00 music, 1.00 variety`, with `about` where the body parts differ. */

@@ -50,7 +50,10 @@ type ShiftAdvice =
   | { readonly better: BestShift }
   | { readonly better: null; readonly summary: string; readonly reason: string };
 
-let cached: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: ShiftAdvice } | null = null;
+let cached: {
+  readonly given: readonly [LoadedLeader, LoadedSong, number, AppState['manifest']];
+  readonly answer: ShiftAdvice;
+} | null = null;
 
 /**
  * How much later than now the song should start so that its beats fall on the leader's motion beats, where that is
@@ -63,7 +66,8 @@ export function shiftAdvice({
   manifest,
 }: Parts & Pick<AppState, 'manifest'>): ShiftAdvice | null {
   if (!song || !leader || !manifest) return null;
-  if (cached?.leader === leader && cached.song === song && cached.shift === shift) return cached.answer;
+  const given = [leader, song, shift, manifest] as const;
+  if (cached && given.every((value, i) => value === cached?.given[i])) return cached.answer;
   const { fps } = leader.file.clip;
   const music = musicBeats({ song, leader, shift }).map((beat) => beat * fps);
   const { smoothing, tolerance } = manifest.quality.beats;
@@ -71,7 +75,7 @@ export function shiftAdvice({
   const { min, max } = shiftRange({ song, leader });
   const possible = best !== null && shift + best.by >= min && shift + best.by <= max;
   const answer = best?.clear && possible ? { better: best } : noBetter(best, leader);
-  cached = { leader, song, shift, answer };
+  cached = { given, answer };
   return answer;
 }
 

@@ -25,6 +25,9 @@ export class PlaybackControl {
   constructor(store: Store, player: Player) {
     this.#store = store;
     this.#player = player;
+    player.onFailure = (error) => {
+      this.#stop(error);
+    };
     this.#unsubscribe = combineDisposers(
       watchAll(
         store,
@@ -113,10 +116,14 @@ export class PlaybackControl {
         if (this.#store.getState().playback.playing) this.#requestFrame();
       },
       (error: unknown) => {
-        apply(this.#store, playbackSet({ playing: false }));
-        if (!isAbort(error)) apply(this.#store, problemShown(playbackProblem(error)));
+        this.#stop(error);
       },
     );
+  }
+
+  #stop(error: unknown): void {
+    apply(this.#store, playbackSet({ playing: false }));
+    if (!isAbort(error)) apply(this.#store, problemShown(playbackProblem(error)));
   }
 
   #setLoop(state: AppState): void {

@@ -78,9 +78,14 @@ window.Audio = class extends Audio {
   }
 };
 const player = new AudioPlayer();
+/** Codes of the failures that stopped it. */
+const failures: string[] = [];
+player.onFailure = ({ code }) => failures.push(code);
 
 export const page = {
   player,
+
+  failures: (): string[] => failures,
 
   /** Loads a song; aborts at the fraction `abortAt` of the progress. */
   async load(

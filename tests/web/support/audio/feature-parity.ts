@@ -76,6 +76,11 @@ export function beatFrames(matrix: Float32Array, recipe: AudioRecipe): number[] 
   );
 }
 
+/** The onset strength of every frame. */
+export function onsetStrength(matrix: Float32Array, recipe: AudioRecipe): number[] {
+  return column(matrix, recipe.features - 2, recipe.features);
+}
+
 function column(matrix: Float32Array, index: number, width: number): number[] {
   return Array.from({ length: matrix.length / width }, (_, row) => matrix[row * width + index]!);
 }

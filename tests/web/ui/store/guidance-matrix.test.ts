@@ -30,6 +30,11 @@ describe('the fader of a layer', () => {
       });
   });
 
+  it('ends at the end of a range that is no whole number of steps', () => {
+    const uneven = { ...range, min: 0, max: 1, step: 0.4 };
+    expect([0.5, 0.9, 1].map((value) => matrix.clampedToStep(value, uneven))).toEqual([0.4, 0.8, 1]);
+  });
+
   it('does not change the other layer, and keeps equal parts equal', () => {
     const moved = matrix.withColumn(uniformGuidance(0.5, 0.2), 'fine', 0.73, small.guidance.fine);
     expect(moved).toEqual(uniformGuidance(0.5, 0.75));

@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Player } from '../../../../web/audio/client';
+import { AppError } from '../../../../web/common/error';
 import { PlaybackControl } from '../../../../web/ui/timeline/playback';
 import * as change from '../../support/actions';
 import { regionSet, shiftSet } from '../../../../web/ui/store/actions/timeline';
@@ -15,6 +16,7 @@ class FakePlayer implements Player {
   songStart = 0;
   loop: { readonly from: number; readonly to: number } | null = null;
   refusal: Error | null = null;
+  onFailure: Player['onFailure'] = null;
   load(sound: Blob | null, duration: number): void {
     Object.assign(this, { sound, duration });
   }
@@ -96,6 +98,18 @@ describe('playback', () => {
     for (let press = 0; press < 3; press++) playback.toggle();
     await draw(0.5);
     expect(frames).toHaveLength(1);
+  });
+
+  it('stops, and says so, where the song fails as it plays', async () => {
+    load();
+    playback.toggle();
+    await draw(0.5);
+    player.onFailure?.(
+      new AppError('playback-refused', 'The browser did not start the sound.', 'Press play again.'),
+    );
+    expect(store.getState().playback).toMatchObject({ playing: false, time: 0.5 });
+    expect(store.getState().problem?.code).toBe('playback-refused');
+    expect(frames).toHaveLength(0);
   });
 
   it('starts over from the end, by hand or by loop', async () => {
