@@ -130,7 +130,7 @@ async function decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
     throw new AppError(
       'not-audio',
       'This browser cannot decode the sound in this file.',
-      'Use a WAV, MP3, OGG, FLAC, M4A or Opus file.',
+      'Save the song as MP3, or as WAV with 16 bits, which every browser can decode.',
       { cause },
     );
   }

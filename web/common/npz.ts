@@ -11,8 +11,11 @@ export interface StoredArray {
   readonly shape: readonly number[];
   /** NumPy's name of the values' type: `<f4` for little-endian floats of four bytes. */
   readonly type: string;
-  /** @throws what `damaged` makes, where the values cannot be read */
-  read(): NpzArray;
+  /**
+   * @param options gaps: whether values may be missing, as not-a-number
+   * @throws what `damaged` makes, where the values cannot be read
+   */
+  read(options?: { readonly gaps?: boolean }): NpzArray;
 }
 
 /** Makes the error of a damaged archive or array from a sentence. */
@@ -98,7 +101,7 @@ export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
   const wrongSize = () => damaged(`The array "${name}" does not have the size that its header states.`);
   if (!shape) throw wrongSize();
   const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
-  const readValues = (): NpzArray => {
+  const readValues = ({ gaps = false } = {}): NpzArray => {
     const [, order = '', kind = '', size = ''] = /^([<>|=])([fiu])(\d)$/.exec(type) ?? [];
     const read = READERS[`${kind}${size}`];
     if (read === undefined)
@@ -108,7 +111,7 @@ export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
     const values = new DataView(bytes.buffer, bytes.byteOffset + end);
     const data = kind === 'f' && Number(size) <= 4 ? new Float32Array(count) : new Float64Array(count);
     for (let i = 0; i < count; i++) data[i] = read(values, i * Number(size), order !== '>');
-    if (!data.every((value) => Number.isFinite(value)))
+    if (!data.every((value) => Number.isFinite(value) || (gaps && Number.isNaN(value))))
       throw damaged(`The array "${name}" holds a value that is not a finite number.`);
     return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
   };

@@ -70,6 +70,18 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   );
   const aspect = (): Promise<number> => page.evaluate('window.reactdance.stage.framing().aspect');
   await expect.poll(aspect).toBeCloseTo(free, 1);
+  // Closed it leaves the whole stage to the dancers, and the video is still there.
+  await close.press('Enter');
+  await expect(panel).toBeHidden();
+  await expect.poll(aspect).toBeGreaterThan(1.1 * free);
+  const reopen = page.getByRole('button', { name: 'Show the video' });
+  await expect(reopen).toBeFocused();
+  await expect(lane).toBeVisible();
+  await reopen.press('Enter');
+  await expect(panel).toBeVisible();
+  await expect(close).toBeFocused();
+  await expect(reopen).toBeHidden();
+  await expect.poll(aspect).toBeCloseTo(free, 1);
   const reactor = await app.reactor();
   expect(reactor.length / 66).toBeGreaterThan(135);
   expect(reactor.every(Number.isFinite)).toBe(true);

@@ -48,7 +48,7 @@ export async function fetchFile(
     if (error instanceof AppError) throw error;
     throw new AppError(
       'download-failed',
-      `The model file ${url} could not be fetched.`,
+      `The model file ${url.replace(/^.*\//, '')} could not be fetched.`,
       'Check the connection, then try again.',
       { cause: error },
     );

@@ -10,7 +10,7 @@ import { leaderLoaded, leaderRefused, readingSet, songLoaded, firstVisitEnded } 
 import { apply, type Change, type Store } from '../store/store';
 import { problemShown, problemClosed } from '../store/actions/notices';
 import { ask } from '../store/history/asked';
-import { withoutUndo } from '../store/history/history';
+import { loadingJoined, withoutUndo } from '../store/history/history';
 
 /**
  * Least time between two changes of a progress line: where the processor draws the picture, each of them takes time
@@ -75,6 +75,7 @@ export class FileLoader implements Files {
 
   async open(files: readonly File[], as?: FileChoice): Promise<void> {
     apply(this.store, problemClosed());
+    const before = this.store.getState().history.past.at(-1) ?? null;
     await Promise.all(
       groupCompanions(files).map(async ([file, ...companions]) => {
         if (!file) return;
@@ -86,6 +87,7 @@ export class FileLoader implements Files {
         }
       }),
     );
+    apply(this.store, loadingJoined(before));
   }
 
   openSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {

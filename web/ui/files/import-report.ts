@@ -8,6 +8,7 @@ import { countingOf, countedBeats, tempoText } from '../store/counting';
 import { centimetres, clockTime, rate } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
 import { jointText } from './joints/joint-text';
+import { isVideoName } from './file-type';
 import { OFFERED_LEADERS } from './offered';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
@@ -107,9 +108,17 @@ function leaderFacts(state: AppState, store: Store, services: Services): HTMLEle
     return [head, ...file, ...change, ...fact('Other', offeredSelect(services))];
   }
   const { clip, report } = leader.file;
+  const length = fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`);
+  if (isVideoName(leader.name))
+    return [
+      head,
+      ...length,
+      ...fact('Format', `video; its dancer was found in the pictures, ${clip.fps} times a second`),
+      ...fact('Other', offeredSelect(services)),
+    ];
   return [
     head,
-    ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
+    ...length,
     ...fact('Frame rate', rateSelect(leader, services)),
     ...fact('Format', formatText(report)),
     ...fact('Skeleton', `${report.convention}, ${Math.round(100 * report.confidence)} % certain`),

@@ -132,9 +132,9 @@ const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
   newer: null,
 };
 
-const PERSISTENT = 'The browser has promised to keep it, also when this device runs out of space.';
+const PERSISTENT = 'The browser has promised to keep them, also when this device runs out of space.';
 const NOT_PERSISTENT =
-  'The browser may remove it when this device runs out of space. A project file is safe from that.';
+  'The browser may remove them when this device runs out of space. A project file is safe from that.';
 
 /** Whether the browser has promised to keep what is stored, in a sentence; null while nobody has asked it. */
 export function persistenceText({

@@ -89,6 +89,19 @@ export function mergedTakes(
     .reduce(withTake, changed);
 }
 
+/** The takes, each with a number of its own: of two with the same one the newer gets the next that is free. */
+export function withOwnNumbers(takes: readonly Take[]): readonly Take[] {
+  let last = Math.max(0, ...takes.map(({ number }) => number));
+  const isNewer = (a: Take, b: Take): boolean => (newestFirst(a, b) || (a.id > b.id ? -1 : 1)) < 0;
+  const isDoubled = (take: Take): boolean =>
+    takes.some((other) => other !== take && other.number === take.number && isNewer(take, other));
+  // From the oldest on.
+  return takes
+    .toReversed()
+    .map((take) => (isDoubled(take) ? { ...take, number: ++last } : take))
+    .toReversed();
+}
+
 /**
  * The takes for another model: without their latents, which it can't decode, and without their songs if its audio
  * recipe differs.

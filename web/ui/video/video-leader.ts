@@ -87,6 +87,10 @@ export class VideoLeader {
         close: () => {
           this.#end(session);
         },
+        reopen: () => {
+          this.#showRead(session);
+        },
+        isPartShown: () => !store.getState().playback.playing,
         cancel: () => {
           this.#cancelReading(session);
         },

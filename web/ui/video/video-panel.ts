@@ -18,7 +18,12 @@ const MIN_MISSING = 0.5;
 
 /** What the visitor does on the panel. */
 export interface PanelActions {
+  /** The video is not wanted: nothing has been read of it. */
   readonly close: () => void;
+  /** The panel is to be seen again after it was closed. */
+  readonly reopen: () => void;
+  /** Whether the stage shows what has been read so far. */
+  readonly isPartShown: () => boolean;
   /** What is being read is not wanted. */
   readonly cancel: () => void;
   /** The people of a moment are to be shown, seconds of the video. */
@@ -52,10 +57,23 @@ export class VideoPanel {
   #part = 0;
   #hasSound = false;
   #soundUsed = false;
+  #hasMotion = false;
+  readonly #isPartShown: PanelActions['isPartShown'];
+  /** In the place of the panel after it was closed: the dancer stays the leader, and its video is still there. */
+  readonly #reopen: HTMLButtonElement;
 
   constructor(host: HTMLElement, file: File, actions: PanelActions) {
+    this.#isPartShown = actions.isPartShown;
     this.#picture = new VideoPicture(file, actions);
-    this.#close = closeButton(actions.close);
+    this.#close = closeButton(() => {
+      if (this.#hasMotion) this.#fold();
+      else actions.close();
+    });
+    this.#reopen = textButton('btn float video-reopen', 'Show the video', () => {
+      actions.reopen();
+      this.#close.focus();
+    });
+    this.#reopen.hidden = true;
     this.#cancel = textButton('btn tint', 'Cancel', actions.cancel);
     this.#sound = textButton('btn tint', 'Use its sound as the song', actions.useSound);
     this.#controls = createControls(actions.change);
@@ -72,7 +90,7 @@ export class VideoPanel {
       this.#picture.root,
       this.#controls.root,
     );
-    host.append(this.#root);
+    host.append(this.#root, this.#reopen);
     new ResizeObserver(actions.resized).observe(this.#root);
     this.showReading();
   }
@@ -125,7 +143,9 @@ export class VideoPanel {
     const progress = left === null ? `Reading, ${seen}` : `Reading, ${seen}, ${timeLeft(left)}`;
     setText(
       this.#status,
-      this.#part === 0 ? progress : `${progress}. On the stage: ${this.#part.toFixed(0)} s`,
+      this.#part > 0 && this.#isPartShown()
+        ? `${progress}. On the stage: ${this.#part.toFixed(0)} s`
+        : progress,
     );
   }
 
@@ -141,12 +161,21 @@ export class VideoPanel {
 
   /** Another video is shown in its place. */
   hide(): void {
-    this.#root.hidden = true;
+    this.#root.hidden = this.#reopen.hidden = true;
+    this.#picture.pause();
+  }
+
+  #fold(): void {
+    this.hide();
+    this.#reopen.hidden = false;
+    this.#reopen.focus();
   }
 
   /** The video has been read, and this is what became of it. */
   showMotion(observations: Observations, motion: VideoMotion): void {
     this.#root.hidden = false;
+    this.#reopen.hidden = true;
+    this.#hasMotion = true;
     this.#reading(false);
     const asked = this.#picture.choosing;
     this.#picture.showObservations(observations);
@@ -175,13 +204,14 @@ export class VideoPanel {
     playback: { readonly time: number; readonly playing: boolean; readonly speed: number },
     start: number,
   ): void {
-    this.#picture.showTime(playback, start);
+    if (!this.#root.hidden) this.#picture.showTime(playback, start);
   }
 
   dispose(): void {
     this.#picture.dispose();
     this.#giveBackFocus(this.#root);
     this.#root.remove();
+    this.#reopen.remove();
   }
 
   #reading(on: boolean): void {

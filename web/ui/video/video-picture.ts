@@ -80,10 +80,9 @@ export class VideoPicture {
     this.root = el(
       'div',
       { class: 'picture-of-video' },
-      // Above the picture, which may reach below the edge of a low window.
-      this.#another,
       this.#choice,
       this.#frame,
+      this.#another,
       el('label', {}, this.#skeleton, ' Skeleton over the video'),
     );
   }
@@ -216,8 +215,12 @@ export class VideoPicture {
       : null;
   }
 
-  dispose(): void {
+  pause(): void {
     this.#video.pause();
+  }
+
+  dispose(): void {
+    this.pause();
     this.#video.removeAttribute('src');
     URL.revokeObjectURL(this.#address);
   }

@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { undoLast } from '../../../../web/ui/store/history/asked';
+import { redone, undone } from '../../../../web/ui/store/history/history';
 import { takeChosen } from '../../../../web/ui/store/actions/takes';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { FileReaders } from '../../../../web/ui/store/services';
@@ -91,6 +92,25 @@ describe('reading files', () => {
     expect(reading).toEqual({ song: null, leader: null });
     expect(firstVisit).toBe(false);
     expect(problem).toBeNull();
+  });
+
+  it('undoes a song and a leader that were dropped together in one step', async () => {
+    await files.open([file('first.bvh', BVH), file('first', SONG)]);
+    await files.open([file('b', SONG), file('b.bvh', BVH)]);
+    const names = () => [store.getState().song?.name, store.getState().leader?.name];
+    change.apply(store, undone());
+    expect(names()).toEqual(['first', 'first.bvh']);
+    change.apply(store, redone());
+    expect(names()).toEqual(['b', 'b.bvh']);
+  });
+
+  it('leaves one of two files that could be read, and what was done meanwhile, steps of their own', async () => {
+    await files.open([file('first.bvh', BVH)]);
+    readers.readLeader = () => Promise.reject(new AppError('bad-frame-time', 'No rate.', 'Choose one.'));
+    await files.open([file('a', SONG)]);
+    change.apply(store, change.seedSet(5));
+    await files.open([file('b', SONG), file('b.bvh', BVH)]);
+    expect(store.getState().history.past).toHaveLength(3);
   });
 
   it('shows a problem with the file’s name when it cannot be read, and changes nothing else', async () => {

@@ -118,7 +118,7 @@ describe('autosave', () => {
     made('bb');
     await pass(0);
     expect(asked).toBe(1);
-    expect(persistenceText(store.getState())).toMatch(/promised to keep it/);
+    expect(persistenceText(store.getState())).toMatch(/promised to keep them/);
   });
 
   it('writes at once when the page is hidden, since it may end there', async () => {

@@ -630,3 +630,24 @@ it('merges takes with those another tab has stored: what was changed or deleted 
   expect(page.titles).toEqual(['Take 5', 'Theirs', 'Mine']);
   expect(page.state.takesMade).toBe(5);
 });
+
+it('merged takes of two tabs that counted alike get numbers of their own, the older one keeps its', () => {
+  page.arrive();
+  const synced = page.state.takes;
+  page.seed(8);
+  page.arrive();
+  const [here, first] = page.state.takes;
+  const theirs = [
+    { ...here!, id: 'newer', createdAt: here!.createdAt + 1 },
+    { ...here!, id: 'older', createdAt: here!.createdAt - 1 },
+    first!,
+  ];
+  page.do(takesMerged(theirs, synced));
+  expect(page.state.takes.map(({ id, number }) => [id, number])).toEqual([
+    ['newer', 4],
+    [here!.id, 3],
+    ['older', 2],
+    [first!.id, 1],
+  ]);
+  expect(page.state.takesMade).toBe(4);
+});

@@ -15,7 +15,8 @@ export function changesLengths({ joints, places }: Positions): boolean {
     const lengths: number[] = [];
     for (let frame = 0; frame < frames; frame += step) {
       const at = frame * joints.length;
-      lengths.push(distance(readVec(places, at + joint), readVec(places, at + parent)));
+      const length = distance(readVec(places, at + joint), readVec(places, at + parent));
+      if (Number.isFinite(length)) lengths.push(length);
     }
     const mean = lengths.reduce((sum, one) => sum + one, 0) / lengths.length;
     return mean > 0 ? [(Math.max(...lengths) - Math.min(...lengths)) / mean] : [];

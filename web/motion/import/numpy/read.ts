@@ -186,7 +186,7 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   if (chosen === undefined || !array) throw noJoints(arrays);
   const { frames, count, width } = jointShape(array)!;
   refuseTooLong(frames, count * width);
-  const values = array.read().data.filter((_, i) => i % width < 3);
+  const values = array.read({ gaps: true }).data.filter((_, i) => i % width < 3);
   const body = (bodyOf(values, count) ?? landmarksIn(values, count))!;
   const doubt = 'Bones change their lengths all the time: the values may be rotations, not places of joints.';
   return sourceOfPoints(body, {

@@ -4,7 +4,7 @@ import type { AppState, AutosaveStatus, Restoring } from '../state';
 import { manifestLoaded } from './model';
 import { type Change } from '../store';
 import { NO_HISTORY, withUndoOfAll, withUndoOfClearing } from '../history/history';
-import { mergedTakes, withTake } from '../take';
+import { mergedTakes, withOwnNumbers, withTake } from '../take';
 
 /** Whether autosave works has changed. */
 export function autosaveChanged(autosave: AutosaveStatus): Change {
@@ -70,7 +70,7 @@ export function songRestored(song: LoadedSong, ids: ReadonlySet<string>): Change
  */
 export function takesMerged(stored: readonly Take[], synced: readonly Take[]): Change {
   return (state) => {
-    const takes = mergedTakes(state.takes, synced, stored);
+    const takes = withOwnNumbers(mergedTakes(state.takes, synced, stored));
     const shown = state.takes.find(({ reaction }) => reaction === state.reaction);
     const reaction = takes.find(({ id }) => id === shown?.id)?.reaction ?? state.reaction;
     return {

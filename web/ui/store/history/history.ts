@@ -100,6 +100,29 @@ function newest(past: readonly Step[], present: AppState): readonly Step[] {
   return past.slice(-countWithin(MAX_BYTES, present, holders));
 }
 
+/**
+ * A song and a leader that were asked for together are one step: the last two steps become one, where they are the
+ * loading of both.
+ * @param after the last step before; null where there was none
+ */
+export function loadingJoined(after: Step | null): Change {
+  return ({ history }) => {
+    const [first, second, ...more] = history.past.slice(after === null ? 0 : history.past.indexOf(after) + 1);
+    if (!first || !second || more.length > 0 || (after !== null && !history.past.includes(after))) return {};
+    const kinds = [first, second].map(({ kind }) => (kind ?? '').split(' '));
+    if (!(['song', 'leader'] as const).every((kind) => kinds.some((parts) => parts.includes(kind))))
+      return {};
+    const step: Step = {
+      ...first,
+      at: second.at,
+      kind: null,
+      back: { ...second.back, ...first.back },
+      edits: [...second.edits, ...first.edits],
+    };
+    return { history: { ...history, past: [...history.past.slice(0, -2), step], open: false } };
+  };
+}
+
 /** Without the step that would bring back what starting over removed: something new has been made since. */
 export function withoutCleared(history: History): History {
   const isOther = ({ cleared = false }: Step): boolean => !cleared;
