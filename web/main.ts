@@ -18,7 +18,7 @@ import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
 import { demoFetched, loadDemo } from './ui/files/demo';
 import { mountDropTarget } from './ui/files/drop-target';
-import { openDropped, unpackedOrReported } from './ui/files/dropped';
+import { createInOrder, openDropped, unpackedOrReported } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
 import { FileLoader } from './ui/files/file-loader';
 import { isProject, isVideoName } from './ui/files/file-type';
@@ -147,8 +147,11 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 
 // ---- the actions of the panels ----
 
+/** What is chosen later is opened later, however long an archive takes. */
+const inOrder = createInOrder();
 const services: Services = {
-  openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
+  openDropped: (reading) =>
+    void openDropped(reading, store, { open: openFiles }, model, generation.generate, inOrder),
   useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen, what) => void openChosen(chosen, what)),
   openOffered: (file) => void offered.open(file),
@@ -285,10 +288,8 @@ function openStage(host: HTMLElement): Stage | null {
 }
 
 async function openChosen(chosen: readonly File[], as: FileChoice): Promise<void> {
-  const found = await unpackedOrReported(
-    chosen.map((file) => ({ path: file.name, file })),
-    store,
-  );
+  const files = chosen.map((file) => ({ path: file.name, file }));
+  const found = await inOrder(() => unpackedOrReported(files, store));
   if (found)
     await openFiles(
       found.map(({ file }) => file),
@@ -300,7 +301,7 @@ async function openChosen(chosen: readonly File[], as: FileChoice): Promise<void
 async function openFiles(chosen: readonly File[], as?: FileChoice): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
   if (projectFile) await project.open(projectFile);
-  else await openGiven(chosen, store, files, as);
+  else await openGiven(chosen, store, files, inOrder, as);
 }
 
 async function saveProject(): Promise<void> {

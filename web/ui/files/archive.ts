@@ -13,11 +13,19 @@ const BATCH_BYTES = 8 * 1024 ** 2;
  * Files with those of zip archives in the place of the archives: collections of motions come so, and the BVH of two
  * dancers that the page writes. Archives in archives stay packed.
  *
+ * @param onArchive is told the name of an archive before it is unpacked
  * @throws {AppError} `archive-damaged`, `archive-empty`, `archive-too-large`
  */
-export async function unpacked(files: readonly DroppedFile[]): Promise<DroppedFile[]> {
+export async function unpacked(
+  files: readonly DroppedFile[],
+  onArchive: (name: string) => void = () => undefined,
+): Promise<DroppedFile[]> {
   const found: DroppedFile[] = [];
-  for (const one of files) found.push(...((await isArchive(one.file)) ? await contentOf(one) : [one]));
+  for (const one of files) {
+    const packed = await isArchive(one.file);
+    if (packed) onArchive(one.file.name);
+    found.push(...(packed ? await contentOf(one) : [one]));
+  }
   return found;
 }
 

@@ -1,5 +1,5 @@
 import type { ModelFolder } from '../../model/client';
-import { problemShown } from '../store/actions/notices';
+import { problemShown, toastShown } from '../store/actions/notices';
 import { archiveProblem, dropProblem, emptyDropProblem } from '../store/problems';
 import type { DroppedFile, Files } from '../store/services';
 import { apply, type Store } from '../store/store';
@@ -34,6 +34,18 @@ async function filesBelow(entry: FileSystemEntry): Promise<DroppedFile[]> {
   }
 }
 
+/** Runs jobs one after the other, in the order in which they were asked for. */
+export type InOrder = <T>(job: () => Promise<T>) => Promise<T>;
+
+export function createInOrder(): InOrder {
+  let last: Promise<unknown> = Promise.resolve();
+  return (job) => {
+    const result = last.then(job);
+    last = result.catch(() => undefined);
+    return result;
+  };
+}
+
 /** The model among dropped files: what lies beside and below a manifest.json; null without one. */
 export function modelFolder(dropped: readonly DroppedFile[]): ModelFolder | null {
   const manifest = dropped.find(({ path }) => /(^|\/)manifest\.json$/.test(path));
@@ -48,17 +60,24 @@ export async function unpackedOrReported(
   files: readonly DroppedFile[],
   store: Store,
 ): Promise<DroppedFile[] | null> {
+  let toast: string | null = null;
   try {
-    return await unpacked(files);
+    return await unpacked(files, (name) => {
+      toast = `Unpacking ${name}`;
+      apply(store, toastShown(toast));
+    });
   } catch (error) {
     apply(store, problemShown(archiveProblem(error)));
     return null;
+  } finally {
+    if (toast !== null && store.getState().toast === toast) apply(store, toastShown(null));
   }
 }
 
 /**
  * Opens what was dropped: the folder of a model, or songs and leaders. What can't be read is reported in the store.
  * @param generate generates a reaction with the model that was opened
+ * @param inOrder so that what is dropped later is opened later, however long an archive takes
  */
 export async function openDropped(
   reading: Promise<readonly DroppedFile[]>,
@@ -66,15 +85,15 @@ export async function openDropped(
   files: Pick<Files, 'open'>,
   model: Pick<ModelLink, 'open'>,
   generate: () => void,
+  inOrder: InOrder,
 ): Promise<void> {
-  let dropped: readonly DroppedFile[];
-  try {
-    dropped = await reading;
-  } catch (error) {
-    apply(store, problemShown(dropProblem(error)));
-    return;
-  }
-  const found = await unpackedOrReported(dropped, store);
+  const found = await inOrder(async () => {
+    const dropped = await reading.catch((error: unknown) => {
+      apply(store, problemShown(dropProblem(error)));
+      return null;
+    });
+    return dropped && unpackedOrReported(dropped, store);
+  });
   if (!found) return;
   const folder = modelFolder(found);
   if (found.length === 0) apply(store, problemShown(emptyDropProblem()));

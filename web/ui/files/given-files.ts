@@ -5,6 +5,7 @@ import type { FileChoice, Files } from '../store/services';
 import type { GivenFiles } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { groupCompanions } from '../../motion/import/format';
+import type { InOrder } from './dropped';
 import { type FileKind, fileKind, HEAD_BYTES } from './file-type';
 
 /** What a file is that can't be used. */
@@ -32,18 +33,20 @@ const SENTENCES: Readonly<
 /**
  * Opens what was given: a song, a leader or both at once, and where there is anything else, a list of all, from which
  * the visitor chooses. What can't be read is reported in the store.
+ * @param inOrder so that what is given later is opened later
  */
 export async function openGiven(
   files: readonly File[],
   store: Store,
   reader: Pick<Files, 'open'>,
+  inOrder: InOrder,
   as?: FileChoice,
 ): Promise<void> {
   // Files from which nothing was chosen are no longer wanted.
   apply(store, givenSet(null));
   // What is wrong with a single file is said at length.
-  if (files.length === 1) return reader.open(files, as);
-  const given = await sortedFiles(files);
+  const given = await inOrder(async () => (files.length === 1 ? null : sortedFiles(files)));
+  if (!given) return reader.open(files, as);
   const { songs, leaders, unused } = given;
   apply(store, problemClosed());
   if (songs.length + leaders.length === 0)

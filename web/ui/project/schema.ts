@@ -55,13 +55,7 @@ export const song = v.pipe(
   v.transform(({ bytes, type, ...rest }) => ({ ...rest, file: new Blob([bytes], { type }) })),
 );
 
-const leaderFile = v.object({
-  name: text,
-  bytes: v.pipe(
-    v.instance(Uint8Array<ArrayBuffer>),
-    v.check(({ byteLength }) => byteLength > 0),
-  ),
-});
+const leaderFile = v.object({ name: text, bytes: v.instance(Uint8Array<ArrayBuffer>) });
 
 const degrees = v.pipe(v.number(), v.minValue(-360), v.maxValue(360));
 const metres = v.pipe(v.number(), v.minValue(-1000), v.maxValue(1000));
@@ -81,7 +75,13 @@ export const leader = v.object({
   id,
   name: text,
   label,
-  files: v.pipe(v.array(leaderFile), v.minLength(1), v.maxLength(MAX_LEADER_FILES)),
+  files: v.pipe(
+    v.array(leaderFile),
+    v.minLength(1),
+    v.maxLength(MAX_LEADER_FILES),
+    // Only the first one is the motion: the others may be empty.
+    v.check(([first]) => first !== undefined && first.bytes.byteLength > 0),
+  ),
   options,
 });
 

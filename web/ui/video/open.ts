@@ -1,5 +1,6 @@
 import { loadPart } from '../../common/page-part';
 import type { Files, Services } from '../store/services';
+import { songStart } from '../store/song-shift';
 import type { Store } from '../store/store';
 import type { VideoTrack } from './video-lane';
 import type { VideoLeader } from './video-leader';
@@ -62,8 +63,9 @@ export function createVideoFeature(
     if (filming) return;
     try {
       const file = await film();
-      // The song plays from the moment at which the recording begins.
-      if (file) await open(file, store.getState().song ? 0 : null);
+      // The dance is played from its start as the recording begins, and the song at its place in it.
+      const state = store.getState();
+      if (file) await open(file, state.song ? songStart(state) : null);
     } catch (error) {
       files().fail(error, 'leader', 'The camera', () => void record());
     }

@@ -35,6 +35,8 @@ interface Session {
   readonly ended: AbortController;
   /** Ends the search for people in the picture of a moment. */
   looking: AbortController;
+  /** The files of the leaders that were made of it: another video may have the same name. */
+  readonly made: Set<LeaderSource['files']>;
   /** The video whose dancer is the leader until this one has been read; it is shown again if that fails. */
   before: Session | null;
   /** When the video's sound begins, seconds of the video; null where it has none. */
@@ -76,6 +78,7 @@ export class VideoLeader {
       reader: createVideoReader(),
       ended,
       looking: new AbortController(),
+      made: new Set(),
       before,
       soundStart: null,
       songStart,
@@ -198,7 +201,9 @@ export class VideoLeader {
       session.motion = motion;
       this.#showRead(session);
       const { shift } = store.getState();
-      const leader = await this.files.openLeader(sourceOf(file, motion.bvh));
+      const source = sourceOf(file, motion.bvh);
+      session.made.add(source.files);
+      const leader = await this.files.openLeader(source);
       if (!leader && session.motion === motion) {
         // It could not be read, or was cancelled.
         Object.assign(session, { observations: seenBefore, motion: before });
@@ -235,7 +240,8 @@ export class VideoLeader {
 
   async #useSound(session: Session): Promise<void> {
     const song = await this.files.openSong(session.file, session.file.name, null);
-    if (!song) return;
+    // Another leader may have been chosen while the song was analysed.
+    if (!song || session.ended.signal.aborted) return;
     session.songStart = session.soundStart;
     session.panel.showSoundUsed();
     this.#alignSong(session);
@@ -261,7 +267,7 @@ export class VideoLeader {
         store,
         ({ leader }) => leader,
         (leader) => {
-          const own = leader?.name === session.file.name && leader.label === null;
+          const own = leader !== null && session.made.has(leader.files);
           // What comes while it is read was asked for earlier, as the demo: newer files call `cancel`.
           if (session.motion && !own) this.#end(session);
         },

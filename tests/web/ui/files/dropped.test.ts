@@ -1,7 +1,7 @@
 import { strToU8, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { DroppedFile } from '../../../../web/ui/store/services';
-import { modelFolder, openDropped } from '../../../../web/ui/files/dropped';
+import { createInOrder, modelFolder, openDropped } from '../../../../web/ui/files/dropped';
 import { createAppStore } from '../../../../web/ui/store/store';
 
 const dropped = (...paths: string[]) => paths.map((path) => ({ path, file: new File([path], path) }));
@@ -31,6 +31,7 @@ describe('the model among dropped files', () => {
 function page(modelOpens = true) {
   const store = createAppStore('dark');
   const happened: string[] = [];
+  const inOrder = createInOrder();
   const open = (coming: Promise<readonly DroppedFile[]>): Promise<void> =>
     openDropped(
       coming,
@@ -43,6 +44,7 @@ function page(modelOpens = true) {
         },
       },
       () => happened.push('generate'),
+      inOrder,
     );
   return { store, happened, open };
 }
@@ -55,6 +57,17 @@ describe('opening dropped files', () => {
     await open(Promise.resolve([file('a.mp3'), file('b.bvh')]));
     await open(Promise.resolve([file('m/manifest.json'), file('m/step.onnx')]));
     expect(happened).toEqual(['a.mp3', 'b.bvh', 'model of manifest.json, step.onnx', 'generate']);
+  });
+
+  it('opens what was dropped later after what was dropped before, however long that takes', async () => {
+    const { happened, open } = page();
+    let folderRead: (files: DroppedFile[]) => void = () => undefined;
+    const folder = open(new Promise((resolve) => (folderRead = resolve)));
+    const later = open(Promise.resolve([file('later.bvh')]));
+    await Promise.resolve();
+    folderRead([file('earlier.bvh')]);
+    await Promise.all([folder, later]);
+    expect(happened).toEqual(['earlier.bvh', 'later.bvh']);
   });
 
   it('opens what lies in a zip archive, also a model, and reports an archive that cannot be unpacked', async () => {

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { createInOrder } from '../../../../web/ui/files/dropped';
 import { openGiven, sortedFiles } from '../../../../web/ui/files/given-files';
 import * as change from '../../support/actions';
 
@@ -11,12 +12,13 @@ async function opened(...files: File[]) {
   const store = change.createAppStore('dark');
   change.apply(store, change.givenSet({ songs: [[song('older.mp3')]], leaders: [], unused: [] }));
   const read: string[] = [];
-  await openGiven(files, store, {
-    open: (all) => {
+  const reader = {
+    open: (all: readonly File[]) => {
       read.push(...all.map(({ name }) => name));
       return Promise.resolve();
     },
-  });
+  };
+  await openGiven(files, store, reader, createInOrder());
   const { given, problem, queuedProblems } = store.getState();
   return { read, given, problem, queuedProblems };
 }

@@ -202,6 +202,20 @@ describe('a project', () => {
     expect(project.leaders.map((one) => one.files)).toEqual(leaders.map((one) => one.files));
   });
 
+  it('holds a leader beside whose motion an empty file was dropped', async () => {
+    const files = [
+      { name: 'dance.gltf', bytes: new TextEncoder().encode('{}') },
+      { name: 'dance.bin', bytes: new Uint8Array() },
+    ];
+    const kept = storedProject(filled().getState());
+    const leaders = kept.leaders.map((one) => ({ ...one, files }));
+    const { project, losses } = readProject(await writeProject({ ...kept, leaders }));
+    expect(losses).toEqual([]);
+    expect(project.leaders.map((one) => one.files.map(({ name }) => name))).toEqual(
+      leaders.map(() => ['dance.gltf', 'dance.bin']),
+    );
+  });
+
   it('that is too large to be read again is not written', async () => {
     const kept = storedProject(filled().getState());
     const files = [1, 2].map((part) => ({ name: `${part}.bvh`, bytes: new Uint8Array(6e8) }));
