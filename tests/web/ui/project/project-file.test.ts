@@ -208,7 +208,7 @@ describe('a project', () => {
       { name: 'dance.bin', bytes: new Uint8Array() },
     ];
     const kept = storedProject(filled().getState());
-    const leaders = kept.leaders.map((one) => ({ ...one, files }));
+    const leaders = kept.leaders.map((one) => ({ ...one, name: 'dance.gltf', files }));
     const { project, losses } = readProject(await writeProject({ ...kept, leaders }));
     expect(losses).toEqual([]);
     expect(project.leaders.map((one) => one.files.map(({ name }) => name))).toEqual(
