@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
+from export.node import in_body
 from export.runtime import Exported, open_model
 from training.command_line import run_program
 from training.config import FPS
@@ -88,7 +89,9 @@ def main(options: Options) -> None:
     else:
         leader = read_bvh(options.leader).motion
     leader = leader.astype(np.float32)
-    reactor = react(model, Request(leader, whole_song[: len(leader)], options.seed))
+    known = in_body(leader, model.manifest["skeleton"]["training_bodies"]["leader"])
+    song = whole_song[: len(leader)]
+    reactor = react(model, Request(leader, song, options.seed, condition_leader=known))
     options.out.mkdir(parents=True, exist_ok=True)
     np.savez(options.out / "motions.npz", leader=leader, reactor=reactor, song=whole_song)
     for start in range(0, int(len(leader) / FPS) - 8, 8):

@@ -6,15 +6,12 @@
         --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls
 
 With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
-checkpoint alone it is measured under PyTorch.
+checkpoint alone it is measured under PyTorch. With --solve leaders are given to it as on the page, in the bodies of the
+training.
 """
 
 from __future__ import annotations
 
-import json
-import subprocess
-import tempfile
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -23,9 +20,9 @@ import numpy as np
 import torch
 from rich.console import Console
 
-from export.manifest import quality_rules
+from export.node import SOLVERS, in_training_bodies
 from export.runtime import open_model
-from training.checkpoint import duets_seen, load_model, solos_seen
+from training.checkpoint import duets_seen, load_model, read_card, solos_seen
 from training.command_line import run_program
 from training.config import STRIDE, check_limits
 from training.data.bvh.file import FRAME_RATES
@@ -37,14 +34,11 @@ from training.diffusion.model import ReactionModel
 from training.diffusion.react import Request, react
 from training.evaluation.evaluate import evaluate
 from training.evaluation.out_of_distribution import read_leaders
-from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator, Settings, Solver
+from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator, Settings
 from training.evaluation.report.conditions import commit, machine
 from training.evaluation.report.report import write_report
 from training.evaluation.rows import generate_motions
 from training.hfsq.reconstruct import reconstruct
-from training.music.recipe import AudioRecipe
-
-ROOT = Path(__file__).parents[1]
 
 
 @dataclass(frozen=True)
@@ -123,47 +117,6 @@ def reactor_generator(
     return generate
 
 
-def solve_with_node(
-    motions: Sequence[np.ndarray], leader: np.ndarray, music: np.ndarray | None, *flags: str
-) -> list[np.ndarray]:
-    """Motions (T, 22, 3) on the skeleton that the page draws and exports, as a partner of the leader (T, 22, 3) to the
-    music (T', 54): web/motion under Node, files in between. flags: of tools/solve.mjs. Raises ValueError with what Node
-    says where it fails.
-    """
-
-    def write(path: Path, values: np.ndarray) -> Path:
-        path.write_bytes(np.ascontiguousarray(values, dtype="<f4").tobytes())
-        return path
-
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        beside, manifest = write(folder / "beside", leader), folder / "manifest.json"
-        manifest.write_text(json.dumps({"quality": quality_rules(), "audio": AudioRecipe().to_dict()}))
-        song = [] if music is None else ["--song", write(folder / "song", music)]
-        files = [write(folder / str(index), motion) for index, motion in enumerate(motions)]
-        done = subprocess.run(
-            ["node", "tools/solve.mjs", "--beside", beside, "--manifest", manifest, *song, *flags, *files],
-            cwd=ROOT,
-            check=False,
-            capture_output=True,
-            text=True,
-        )
-        if done.returncode:
-            raise ValueError(f"tools/solve.mjs failed: {done.stderr or done.stdout}")
-        return [
-            np.frombuffer(file.read_bytes(), dtype="<f4").reshape(motion.shape).astype(np.float32)
-            for file, motion in zip(files, motions, strict=True)
-        ]
-
-
-SOLVERS: dict[str, Solver] = {
-    "solved": solve_with_node,
-    "solved, foot lock": lambda motions, leader, music: solve_with_node(
-        motions, leader, music, "--foot-lock"
-    ),
-}
-
-
 def paired_duets(options: Options, duets: Split) -> list[HeldOutDuet]:
     """The held-out duets to measure with the music that training pairs them with, its tempo fitted from the leader
     alone.
@@ -204,10 +157,11 @@ def main(options: Options) -> None:
         model = open_model(options.model, options.threads)
         graphs = {k: g["files"]["wasm"]["sha256"] for k, g in model.manifest["graphs"].items()}
         facts |= {"model": model.manifest["id"], "runtime": "onnxruntime", "graphs": graphs}
-        name = model.manifest["name"]
+        name, bodies = model.manifest["name"], model.manifest["skeleton"]["training_bodies"]
     else:
         assert checkpoint is not None and options.checkpoint is not None
         model, name = checkpoint, options.checkpoint.name
+        bodies = read_card(options.checkpoint)["training_bodies"]
         facts |= {"model": name, "runtime": "pytorch"}
     if options.no_latent_baseline is not None:
         baseline = reactor_generator(load_model(options.no_latent_baseline))
@@ -229,10 +183,14 @@ def main(options: Options) -> None:
             **defaults,
         },
     }
+    generate = reactor_generator(CachedModel(model), options.steps)
     every_step = reactor_generator(checkpoint, options.steps, at_every_step=True) if checkpoint else None
+    if options.solve:
+        generate = in_training_bodies(generate, bodies)
+        every_step = every_step and in_training_bodies(every_step, bodies)
     seen = options.settings.seen_leaders or (solos_seen(options.checkpoint) if options.checkpoint else ())
     evaluation = evaluate(
-        reactor_generator(CachedModel(model), options.steps),
+        generate,
         held_out,
         duets.train,
         STRIDE * sampling.block,

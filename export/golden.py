@@ -56,7 +56,6 @@ def sample(model: ReactionModel, given: Mapping[str, Tensor]) -> tuple[Tensor, T
         per_channel(given["coarse"], sampling.channels),
         float(given["music_guidance"]),
         variety=1.0,  # the page repeats this sampling as it loads: without the seeds of the mean
-        music_fade=sampling.music_fade,
     )
     each = torch.stack([branches.conditional, branches.silent, branches.unconditional, branches.mean])
     return each, latents

@@ -8,7 +8,6 @@ from typing import Any
 
 from training.config import CONTROLS, FPS, STREAMS, STRIDE, from_json, to_json
 from training.diffusion.decode import RECEPTIVE_FIELD
-from training.diffusion.guidance import FADE_REACH
 from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
 from training.evaluation.metrics import beats, contact, penetration, seams
@@ -18,7 +17,7 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 8
+FORMAT, VERSION = "reactdance-model", 9
 LAYERS = ("coarse", "fine")
 ROLES = ("reactor", "leader")
 
@@ -35,6 +34,8 @@ class Card:
     notes: tuple[str, ...]
     reference_height: float  # metres, `body_height` of the leaders it was trained on
     reactor_height: float  # metres, `body_height` of the reactors beside those leaders
+    training_bodies: dict[str, list[list[float]]]
+    """By role the rest offsets (22, 3), metres at the reference height, of the dancers of the training."""
     unfamiliar_from: float  # mean unfamiliarity of a leader from which the model does not know such a dance
 
 
@@ -102,6 +103,7 @@ def manifest(
                 role: [[round(value, 5) for value in offset] for offset in body.tolist()]
                 for role, body in zip(ROLES, model.denoiser.bodies, strict=True)
             },
+            "training_bodies": card.training_bodies,
             "reactor_height": round(card.reactor_height, 4),
             "floor": {"toe_rest": TOE_REST, "percentile": TOE_PERCENTILE},
         },
@@ -128,17 +130,13 @@ def manifest(
         "guidance": {
             "convention": {
                 "coarse": "cond + s (cond - uncond), sampled latents of the coarse layer",
-                "music": "+ m (cond - silent), sampled latents of all layers; m falls to 0 where the coarse layer's "
-                "|cond - silent| rises from one norm of fade to the other, mean over reach latent frames to each side",
+                "music": "+ m (cond - silent), sampled latents of all layers",
                 "variety": "+ (v - 1) (cond - mean over the seeds), sampled latents of the coarse layer",
                 "fine": "(1 + s) times the fine layer, decoded after the clamp",
             },
             "coarse": _range("coarse", diffusion.guidance[0]),
             "fine": _range("fine", diffusion.guidance[1]),
-            "music": {
-                **_range("music", diffusion.music_guidance),
-                "fade": _fade(diffusion.music_fade),
-            },
+            "music": _range("music", diffusion.music_guidance),
             "variety": {**_range("variety", diffusion.variety), "seeds": diffusion.mean_seeds},
         },
         "noise": {"algorithm": "philox4x32-10"},
@@ -153,13 +151,6 @@ def manifest(
         "graphs": entries,
         "golden": golden,
     }
-
-
-def _fade(norms: tuple[float, float] | None) -> dict[str, float] | None:
-    if norms is None:
-        return None
-    start, end = norms
-    return {"from": start, "to": end, "reach": FADE_REACH}
 
 
 def _range(control: str, default: float) -> dict[str, float]:

@@ -28,7 +28,6 @@ class Exported:
     def sampling(self) -> Sampling:
         latent, diffusion = self.manifest["latent"], self.manifest["diffusion"]
         guidance = self.manifest["guidance"]
-        fade = guidance["music"]["fade"]
         return Sampling(
             block=latent["block"],
             layers=len(latent["layers"]),
@@ -40,7 +39,6 @@ class Exported:
             steps=diffusion["steps"],
             guidance=(guidance["coarse"]["default"], guidance["fine"]["default"]),
             music_guidance=guidance["music"]["default"],
-            music_fade=(fade["from"], fade["to"]) if fade else None,
             variety=guidance["variety"]["default"],
             mean_seeds=guidance["variety"]["seeds"],
             reference_height=self.manifest["skeleton"]["reference_height"],

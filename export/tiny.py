@@ -17,6 +17,7 @@ from training.command_line import run_program
 from training.config import ConditionConfig, DenoiserConfig, DiffusionConfig, FrameConfig, HfsqConfig
 from training.data.made import made_dancer
 from training.denoiser.denoiser import Denoiser
+from training.diffusion.body import mean_bodies
 from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.rest_pose import rest_offsets
@@ -32,6 +33,10 @@ CARD = Card(
     notes=("Untrained. Its motion means nothing.",),
     reference_height=1.5,
     reactor_height=1.43,
+    training_bodies={
+        role: body.tolist()
+        for role, body in mean_bodies([made_dancer(60, 1)], [made_dancer(60, 2)], 1.5).items()
+    },
     unfamiliar_from=10.0,
 )
 

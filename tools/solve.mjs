@@ -2,12 +2,14 @@
  * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
  *
  *     node tools/solve.mjs [--beside leader.f32 --manifest manifest.json [--song song.f32]] [--foot-lock] motion.f32 ...
+ *     node tools/solve.mjs --body body.f32 motion.f32 ...
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps; each motion is replaced by its solved
  * form, and its fit error printed in millimetres. With --beside the dancer keeps to what the page lets a partner do
  * (web/motion/contact/beside-partner.ts), to the beats of the song where there is one: song.f32 holds its features, frames x
  * 54. Of manifest.json only `quality` and `audio` are read. With --foot-lock feet in contact do not slide, as with the page's
- * setting of that name.
+ * setting of that name. With --body the dance is written in another body, as the page gives a leader to the model: body.f32
+ * holds rest offsets, 22 x 3, metres, and the dance is scaled to their height.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -19,16 +21,19 @@ const { values, positionals } = parseArgs({
     manifest: { type: 'string' },
     song: { type: 'string' },
     'foot-lock': { type: 'boolean', default: false },
+    body: { type: 'string' },
   },
   allowPositionals: true,
 });
 if (
   positionals.length === 0 ||
   (values.beside === undefined) !== (values.manifest === undefined) ||
-  (values.song !== undefined && values.beside === undefined)
+  (values.song !== undefined && values.beside === undefined) ||
+  (values.body !== undefined && (values.beside !== undefined || values['foot-lock']))
 ) {
   console.error(
-    'Usage: node tools/solve.mjs [--beside leader.f32 --manifest manifest.json [--song song.f32]] [--foot-lock] motion.f32 ...',
+    'Usage: node tools/solve.mjs [--beside leader.f32 --manifest manifest.json [--song song.f32]] [--foot-lock] motion.f32 ...\n' +
+      '       node tools/solve.mjs --body body.f32 motion.f32 ...',
   );
   process.exit(2);
 }
@@ -48,6 +53,10 @@ function read(file) {
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/beside-partner')} */
 const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
+/** @type {typeof import('../web/motion/skeleton/kinematics')} */
+const { inBody, restPositions } = await loadWeb('motion/skeleton/kinematics.ts');
+/** @type {typeof import('../web/motion/skeleton/scale')} */
+const { bodyHeight } = await loadWeb('motion/skeleton/scale.ts');
 /** @type {typeof import('../web/audio/rhythm/rhythm')} */
 const { rhythmOf } = await loadWeb('audio/rhythm/rhythm.ts');
 /** @type {typeof import('../web/motion/beats/step-timing')} */
@@ -59,9 +68,17 @@ const manifest = values.manifest === undefined ? null : JSON.parse(readFileSync(
 const song =
   values.song === undefined ? null : new Float32Array(new Uint8Array(readFileSync(values.song)).buffer);
 const beats = song === null ? [] : rhythmOf(song, manifest.audio).beats;
+const body = values.body === undefined ? null : read(values.body).positions;
 for (const file of positionals) {
   const clip = read(file);
   let motion = solve(clip);
+  if (body !== null) {
+    const rest = { fps: 30, frames: 1, positions: restPositions(body) };
+    const positions = inBody(clip, motion, body, bodyHeight(rest) / bodyHeight(clip));
+    writeFileSync(file, new Uint8Array(positions.buffer));
+    console.log(`${file}: ${motion.frames} frames in another body`);
+    continue;
+  }
   if (leader !== null) {
     if (leader.frames !== clip.frames) {
       console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);

@@ -6,10 +6,11 @@ import ast
 import hashlib
 import json
 import shutil
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from safetensors import safe_open
 from safetensors.torch import load_model as load_weights
 from safetensors.torch import save_file
@@ -224,7 +225,7 @@ def copy_stage1(source: Path, out: Path) -> None:
             shutil.copy(source / name, out / name)
 
 
-MEASURED = ("reference_height", "reactor_height", "unfamiliar_from")
+MEASURED = ("reference_height", "reactor_height", "training_bodies", "unfamiliar_from")
 """Numbers of a card that come from the training; a person fills in the others."""
 
 
@@ -235,12 +236,18 @@ def copy_card(source: Path, out: Path) -> None:
         _update_card(out, card, {name: card[name] for name in MEASURED if name in card})
 
 
-def write_card(folder: Path, reference_height: float, reactor_height: float, unfamiliar_from: float) -> None:
+def write_card(
+    folder: Path,
+    reference_height: float,
+    reactor_height: float,
+    training_bodies: Mapping[str, np.ndarray],
+    unfamiliar_from: float,
+) -> None:
     """Writes a card.json to be filled in by hand; of one that exists it replaces the measured numbers alone.
 
     reference_height and reactor_height: metres, the mean `body_height` of the leaders it was trained on and of the
-    reactors beside them. unfamiliar_from: mean `ConditionEncoder.unfamiliarity` of a leader from which the page says
-    that the model does not know such a dance.
+    reactors beside them. training_bodies: see `mean_bodies`. unfamiliar_from: mean `ConditionEncoder.unfamiliarity` of
+    a leader from which the page says that the model does not know such a dance.
     """
     blank = {
         "id": folder.resolve().name,
@@ -253,6 +260,7 @@ def write_card(folder: Path, reference_height: float, reactor_height: float, unf
     measured = {
         "reference_height": round(reference_height, 4),
         "reactor_height": round(reactor_height, 4),
+        "training_bodies": {role: np.round(body, 4).tolist() for role, body in training_bodies.items()},
         "unfamiliar_from": round(unfamiliar_from, 2),
     }
     _update_card(folder, blank, measured)

@@ -144,9 +144,6 @@ class DiffusionConfig:
     stitching: bool = False  # windows overlap by half and cross-fade
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music_guidance: float = 0.0  # default guidance weight m of the music, see `blend`
-    music_fade: tuple[float, float] | None = (
-        None  # where the song is trusted less, see `blend`; None: nowhere
-    )
     variety: float = 1.0  # default distance v from the mean of several seeds, see `blend`
     mean_seeds: int = 4  # seeds 0, 1, ... whose mean that is
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
@@ -154,8 +151,6 @@ class DiffusionConfig:
     def __post_init__(self) -> None:
         check_limits(self, steps=(1, self.train_steps), mean_seeds=(1, 64), foot_contact=(0, math.inf))
         check_limits(self, extrapolation=(-10, 10))
-        if self.music_fade is not None and not 0 < self.music_fade[0] < self.music_fade[1]:
-            raise ValueError(f"music_fade is two ascending norms above 0, not {self.music_fade}")
 
 
 @dataclass(frozen=True)

@@ -52,9 +52,6 @@ class Options(ClipOptions):
     music_guidance: float | None = None
     """Default weight of the music for the student, which learns what the song changes a little too weak; the teacher's
     when left out."""
-    music_fade: tuple[float, float] | None = None
-    """Norms between which the weight of the music falls to 0, see `music_trust`: above what the song changes beside
-    leaders of training. Never, when left out."""
     learning_rate: float = 3e-4
     weight_decay: float = 0.0
     batch: int = 8
@@ -71,7 +68,7 @@ def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     teacher = load_model(options.teacher)
-    diffusion = student_diffusion(teacher.diffusion, options.music_guidance, options.music_fade)
+    diffusion = student_diffusion(teacher.diffusion, options.music_guidance)
     network = teacher.denoiser
     duets = read_duets_to_train(options, fabric, STRIDE * network.config.block)
     fabric.print(PREPARING, flush=True)
@@ -113,15 +110,13 @@ def main(options: Options) -> None:
     run.train(lambda random: windows.batch(options.batch, random), finish, finish)
 
 
-def student_diffusion(
-    teacher: DiffusionConfig, music_guidance: float | None, music_fade: tuple[float, float] | None
-) -> DiffusionConfig:
+def student_diffusion(teacher: DiffusionConfig, music_guidance: float | None) -> DiffusionConfig:
     """How a student of a teacher's sampling is sampled: in one step, and nothing is extrapolated, since what that gave
     has been learnt.
     """
     weight = teacher.music_guidance if music_guidance is None else music_guidance
     none = tuple(0.0 for _ in teacher.extrapolation)
-    return replace(teacher, steps=1, extrapolation=none, music_guidance=weight, music_fade=music_fade)
+    return replace(teacher, steps=1, extrapolation=none, music_guidance=weight)
 
 
 class Distillation(nn.Module):

@@ -27,7 +27,7 @@ from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.losses import decoded_windows, motion_loss, noise_weights, simple_loss
 from training.denoiser.windows import Batch, Windows
-from training.diffusion.body import set_bodies
+from training.diffusion.body import mean_bodies, set_bodies
 from training.diffusion.model import Model
 from training.diffusion.react import at_height
 from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
@@ -106,7 +106,8 @@ def main(options: Options) -> None:
             provenance |= {"validation": report} | before
             save_denoiser(options.out, hfsq, averaged, options.diffusion, provenance)
             known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
-            write_card(options.out, height, reactor_height, UNFAMILIAR_RATIO * known)
+            bodies = mean_bodies([d.leader for d in duets.train], [d.reactor for d in duets.train], height)
+            write_card(options.out, height, reactor_height, bodies, UNFAMILIAR_RATIO * known)
         hfsq.to(fabric.device)
 
     run.train(lambda random: windows.batch(options.batch, random), finish, finish)

@@ -67,7 +67,7 @@ def test_a_student_that_samples_as_the_teacher_does_has_no_loss_and_another_has(
     tiny: Model, batch: Batch
 ) -> None:
     # A teacher that is sampled in one step itself is such a student, if nothing is dropped out.
-    one_step = student_diffusion(tiny.diffusion, None, None)
+    one_step = student_diffusion(tiny.diffusion, None)
     student = copy.deepcopy(tiny.denoiser).train()
     assert student.config.dropout > 0
     loss, parts = Distillation(student, tiny.denoiser, one_step)(batch)
@@ -85,7 +85,7 @@ def test_a_student_is_asked_where_its_only_step_begins_and_of_one_noise_for_all_
     student.register_forward_pre_hook(lambda _, given: asked.append(given))
     Distillation(student, tiny.denoiser, tiny.diffusion)(batch)
     ((noise, time, *_),) = asked
-    one_step = student_diffusion(tiny.diffusion, None, None)
+    one_step = student_diffusion(tiny.diffusion, None)
     (only,) = replace(tiny, diffusion=one_step).sampling.ddim()
     assert time.tolist() == pytest.approx([only.time] * len(time))
     for branch in noise.split(len(batch.latents))[1:]:

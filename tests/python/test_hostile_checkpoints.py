@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 import torch
 from safetensors.torch import load_file, save_file
 from torch import nn
 
+from tests.python.support.bodies import TRAINING_BODIES
 from tests.python.support.mutations import damaged_bytes, damaged_text, fuzz
 from training.checkpoint import (
     copy_card,
@@ -105,15 +107,16 @@ def test_weights_of_a_wider_network_are_named_in_one_sentence(tmp_path: Path) ->
 def test_a_card_keeps_what_a_person_wrote_and_takes_the_numbers_of_the_newest_training(
     tmp_path: Path,
 ) -> None:
-    write_card(tmp_path / "a", 1.4, 1.3, 1.1)
+    write_card(tmp_path / "a", 1.4, 1.3, TRAINING_BODIES, 1.1)
     path = tmp_path / "a" / "card.json"
     path.write_text(json.dumps(read_card(tmp_path / "a") | {"name": "Tango", "notes": ["one couple"]}))
-    write_card(tmp_path / "a", 1.5, 1.25, 1.2)
+    write_card(tmp_path / "a", 1.5, 1.25, {"leader": np.ones((22, 3))}, 1.2)
     numbers = {"reference_height": 1.5, "unfamiliar_from": 1.2, "reactor_height": 1.25}
+    numbers["training_bodies"] = {"leader": [[1.0] * 3] * 22}
     card = read_card(tmp_path / "a")
     assert card["name"] == "Tango"
     assert card.items() >= numbers.items()
-    write_card(tmp_path / "b", 1.0, 1.0, 1.0)
+    write_card(tmp_path / "b", 1.0, 1.0, TRAINING_BODIES, 1.0)
     copy_card(tmp_path / "a", tmp_path / "b")
     assert read_card(tmp_path / "b").items() >= ({"name": "b"} | numbers).items()
     copy_card(tmp_path / "a", tmp_path / "c")

@@ -12,7 +12,7 @@ from torch import Tensor
 from training.config import STREAMS
 from training.diffusion.decode import decoded_joints
 from training.diffusion.model import Model
-from training.diffusion.react import at_height, music_of_length
+from training.diffusion.react import at_height, music_of_length, scale_to
 from training.diffusion.sampler import initial_noise, sample_branch
 from training.motion.rest_pose import rest_offsets
 from training.motion.rigid_body import bone_lengths, rigid_body, steady_bones
@@ -27,6 +27,18 @@ def set_bodies(model: Model, leaders: Sequence[np.ndarray], reactors: Sequence[n
     """
     bodies = [measure_body(model, partners, role) for role, partners in enumerate((leaders, reactors))]
     model.denoiser.bodies.copy_(torch.stack(bodies))
+
+
+def mean_bodies(
+    leaders: Sequence[np.ndarray], reactors: Sequence[np.ndarray], height: float
+) -> dict[str, np.ndarray]:
+    """By role the mean rest offsets (22, 3) of captured dancers (T, 22, 3), each scaled to a height, metres of
+    `body_height`. A leader is given to a model as danced by this body: the network has seen few others.
+    """
+    return {
+        role: np.mean([rest_offsets(motion * scale_to(motion, height)) for motion in motions], axis=0)
+        for role, motions in (("leader", leaders), ("reactor", reactors))
+    }
 
 
 @torch.no_grad()

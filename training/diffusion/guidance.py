@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import torch
-import torch.nn.functional as F
 from torch import Tensor
 
 from training.denoiser.denoiser import Denoiser
@@ -27,48 +26,21 @@ class Branches:
     mean: Tensor  # of the conditional latents of several seeds
 
 
-FADE_REACH = 7
-"""Latent frames to each side whose change by the song is averaged, 2 seconds in all."""
-
-
-def blend(
-    branches: Branches,
-    coarse: Tensor,
-    music: float,
-    variety: float,
-    music_fade: tuple[float, float] | None = None,
-) -> Tensor:
+def blend(branches: Branches, coarse: Tensor, music: float, variety: float) -> Tensor:
     """Eq. 9 on sampled latents, with a term for the song (Liu et al. 2022, guidance by a single condition) and one
     for the distance from other seeds:
 
         x = cond + m (cond - silent), in the coarse layer + s (cond - uncond) + (v - 1) (cond - mean)
 
-    coarse: s, broadcastable to a layer (..., L, C). music: m. variety: v. music_fade: see `music_trust`. Returns
-    (..., L, R, C). The fine layer's guidance acts where latents are decoded, see `layer_gains`.
+    coarse: s, broadcastable to a layer (..., L, C). music: m. variety: v. Returns (..., L, R, C). The fine layer's
+    guidance acts where latents are decoded, see `layer_gains`.
     """
     conditional = branches.conditional
     change = conditional - branches.silent
-    if music_fade is not None:
-        change = music_trust(change[..., 0, :], music_fade)[..., None, None] * change
     x = conditional + music * change
     away = coarse[..., None, :] * (conditional - branches.unconditional)[..., :1, :]
     away = away + (variety - 1) * (conditional - branches.mean)[..., :1, :]
     return torch.cat([x[..., :1, :] + away, x[..., 1:, :]], dim=-2)
-
-
-def music_trust(change: Tensor, fade: tuple[float, float]) -> Tensor:
-    """Factors (..., L), 1 to 0, of what the song changes in the coarse layer (..., L, C).
-
-    Beside some leaders the song changes the latents several times as much as beside any of those of training. The
-    weight of the music would multiply that until the partner falls. So the factor is 1 where the norm, averaged over
-    2 seconds, is at most fade[0], and falls to 0 at fade[1].
-    """
-    lengths = change.norm(dim=-1)
-    window = 2 * FADE_REACH + 1
-    padded = F.pad(lengths.reshape(-1, 1, lengths.shape[-1]), (FADE_REACH, FADE_REACH), mode="replicate")
-    mean = F.avg_pool1d(padded, window, 1).reshape(lengths.shape)
-    low, high = fade
-    return ((high - mean) / (high - low)).clamp(0, 1)
 
 
 def per_channel(values: Tensor, channels: int) -> Tensor:

@@ -34,7 +34,6 @@ class Sampling:
     steps: int
     guidance: tuple[float, float]  # Eq. 9's s of the coarse and the fine layer
     music_guidance: float  # m of `blend`
-    music_fade: tuple[float, float] | None  # of the song's change, see `blend`
     variety: float  # v of `blend`
     mean_seeds: int  # seeds 0, 1, ... whose mean variety is measured from
     reference_height: float  # metres, `body_height` of the leaders that the model knows
@@ -97,7 +96,6 @@ class Model:
             steps=config.steps,
             guidance=config.guidance,
             music_guidance=config.music_guidance,
-            music_fade=config.music_fade,
             variety=config.variety,
             mean_seeds=config.mean_seeds,
             reference_height=self.reference_height,

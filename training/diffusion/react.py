@@ -76,7 +76,7 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
             unconditional=sample_branch(model, silent, 0.0, initial, steps) if coarse else conditional,
             mean=sample_mean(model, memory, steps) if variety != 1 else conditional,
         )
-        latents = blend(branches, torch.full((1,), coarse), weight, variety, sampling.music_fade)
+        latents = blend(branches, torch.full((1,), coarse), weight, variety)
     gains = layer_gains(torch.full((len(STREAMS),), fine), sampling.layers)
     reactor = model.decode(latents, leader, gains, role)
     return reactor[: len(request.leader)].numpy() / scale_to(request.leader, height)

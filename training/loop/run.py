@@ -48,11 +48,11 @@ def fast_precision() -> Precision:
 
 
 MAY_DIFFER = (
-    "devices", "evaluate-every", "log-every", "minutes", "music-cache", "music-fade", "music-guidance", "out",
+    "devices", "evaluate-every", "log-every", "minutes", "music-cache", "music-guidance", "out",
     "precision", "resume", "steps", "threads",
 )  # fmt: skip
-"""Options that a training may go on with in other values: those of its length, its machine and its report, and how a
-student weights the music by default, of which nothing is learnt."""
+"""Options that a training may go on with in other values: those of its length, its machine and its report, and the
+default weight of a student, of which nothing is learnt."""
 
 
 def flat_options(options: Any, prefix: str = "") -> dict[str, str]:

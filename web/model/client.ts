@@ -156,14 +156,14 @@ class WorkerGenerator implements Generator {
   }
 
   async generate(
-    { leader, music, role, ...settings }: GenerateRequest,
+    { leader, fitted, music, role, ...settings }: GenerateRequest,
     { signal, playhead, onProgress, onPreview }: GenerateOptions = {},
   ): Promise<GenerateResult> {
     return this.#onWorker(signal, (worker) =>
       worker.connection.call(
         'generate',
         {
-          source: newSource(worker, { leader, music, role }, signal),
+          source: newSource(worker, { leader, fitted, music, role }, signal),
           settings,
           playhead: onPreview && playhead,
         },
@@ -182,11 +182,11 @@ class WorkerGenerator implements Generator {
     { request, ...seeds }: SeedsRequest,
     { signal, onProgress }: SeedsOptions = {},
   ): Promise<number[]> {
-    const { leader, music, role, ...settings } = request;
+    const { leader, fitted, music, role, ...settings } = request;
     return this.#onWorker(signal, (worker) =>
       worker.connection.call(
         'differingSeeds',
-        { source: newSource(worker, { leader, music, role }, signal), settings, seeds },
+        { source: newSource(worker, { leader, fitted, music, role }, signal), settings, seeds },
         { signal, onReport: onProgress },
       ),
     );

@@ -50,11 +50,6 @@ const around = v.pipe(v.number(), v.gtValue(0), v.maxValue(300));
 const range = v.object({ min: finite, max: finite, step: v.pipe(positive, v.gtValue(0)), default: finite });
 
 /** Norms of what the song changes between which its weight falls, and over how many latent frames to each side they are meant. */
-const fade = v.object({
-  from: positive,
-  to: v.pipe(positive, v.gtValue(0)),
-  reach: v.pipe(count, v.maxValue(100)),
-});
 
 /** Constants of the measures on the page, as Python has them; see quality/rules.ts. */
 const quality = v.object({
@@ -89,7 +84,7 @@ const names = v.pipe(
 
 export const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(8),
+  version: v.literal(9),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
@@ -107,6 +102,8 @@ export const schema = v.object({
     reference_height: height,
     /** Rest offsets from the parent joint in a T-pose, metres at that height, of the dancer whom each role generates. */
     bodies: v.object({ reactor: body, leader: body }),
+    /** The same of the dancers of the training, in whose bodies a loaded dancer is given to the model. */
+    training_bodies: v.object({ reactor: body, leader: body }),
     /** Metres; body height of the reactors of the training beside leaders of that height. */
     reactor_height: height,
     /** See FLOOR in motion/retarget/axes-and-units.ts. */
@@ -150,8 +147,7 @@ export const schema = v.object({
     convention: v.record(v.string(), v.string()),
     coarse: range,
     fine: range,
-    /** `fade`: where the song is trusted less, see blend.ts; null nowhere. */
-    music: v.object({ ...range.entries, fade: v.nullable(fade) }),
+    music: range,
     /** `seeds`: how many seeds, from 0, the mean is taken of that variety keeps a seed away from. */
     variety: v.object({ ...range.entries, seeds: v.pipe(count, v.maxValue(64)) }),
   }),

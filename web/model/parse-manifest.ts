@@ -112,8 +112,6 @@ function checkGuidance({ coarse, fine, music, variety }: Manifest['guidance']): 
     if (!(step <= max - min && max - min <= MAX_FADER_STEPS * step))
       throw invalid(`The model's manifest has a "guidance.${name}" whose step does not fit its range.`);
   }
-  if (music.fade && !(music.fade.from < music.fade.to))
-    throw invalid(`The model's manifest has a "guidance.music.fade" that is not in order: from, to.`);
 }
 
 /**

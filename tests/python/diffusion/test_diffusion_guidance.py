@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 import torch
 
-from export.runtime import open_model
 from export.tiny import tiny_model
-from tests.python.support.real_data import real_file
 from training.config import ConditionConfig, DenoiserConfig
-from training.data.bvh.reader import read_bvh
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.guidance import (
     Branches,
@@ -20,13 +16,8 @@ from training.diffusion.guidance import (
     clamp_to_range,
     classifier_free_guidance,
     layer_gains,
-    music_trust,
     per_channel,
 )
-from training.diffusion.react import Request, react
-from training.motion.skeleton import JOINTS
-from training.music.features import features, load_audio
-from training.music.recipe import AudioRecipe
 
 CHANNELS = 6
 PUBLIC = Path(__file__).parents[3] / "web" / "public"
@@ -76,29 +67,6 @@ def test_weights_at_which_a_term_is_gone_or_alone(branches: Branches) -> None:
         assert torch.allclose(made[..., 0, :], coarse[..., 0, :], atol=1e-6)
         assert torch.equal(made[..., 1, :], cond[..., 1, :])
     assert torch.allclose(blend(branches, none, -1.0, 1.0), branches.silent, atol=1e-6)
-
-
-def test_the_song_is_trusted_less_where_it_changes_more_than_beside_leaders_of_training() -> None:
-    change = torch.zeros(40, CHANNELS)
-    change[:20, 0], change[20:, 0] = 1, 3
-    trust = music_trust(change, (1.0, 2.0))
-    # A mean over 15 latent frames: 13 of them with 1 and 2 with 3 are 19 / 15 at row 14.
-    assert torch.allclose(trust[[0, 12, 14, 27, 39]], torch.tensor([1, 1, 11 / 15, 0, 0]), atol=1e-6)
-    still = torch.zeros(40, 2, CHANNELS)
-    branches = Branches(torch.stack([change, change], 1), still, still, still)
-    made = blend(branches, torch.zeros(1), 4.0, 1.0, (1.0, 2.0))
-    assert torch.allclose(made, (1 + 4 * trust)[:, None, None] * branches.conditional)
-
-
-def test_the_partner_of_a_leader_who_stands_before_the_dance_stays_upright() -> None:
-    leader = read_bvh(real_file("bvh/cmu_60_10_daz.bvh"), fps=60).motion[:240]
-    recipe = AudioRecipe()
-    song = features(load_audio(PUBLIC / "demo" / "song.mp3", recipe), recipe)
-    reactor = react(open_model(PUBLIC / "models" / "salsa"), Request(leader, song, seed=0))
-    height = reactor[:, JOINTS.index("head"), 1] - reactor[..., 1].min(axis=1)
-    # Without the fade it falls to 0.41 m.
-    assert height.min() > 0.8
-    assert np.median(height) > 1.1
 
 
 def test_a_channel_has_the_weight_of_its_stream() -> None:

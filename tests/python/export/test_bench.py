@@ -7,6 +7,7 @@ import numpy as np
 
 from export.bench import Options, main
 from export.tiny import tiny_model
+from tests.python.support.bodies import TRAINING_BODIES
 from training.checkpoint import save_denoiser, save_hfsq, write_card
 
 TINY = Path(__file__).parents[2] / "fixtures" / "tiny-model"
@@ -16,7 +17,7 @@ def test_it_times_every_stage_and_leaves_the_scene(tmp_path: Path) -> None:
     model = tiny_model()
     save_hfsq(tmp_path / "checkpoint", model.hfsq, model.frame, {})
     save_denoiser(tmp_path / "checkpoint", model.hfsq, model.denoiser, model.diffusion, {})
-    write_card(tmp_path / "checkpoint", model.reference_height, 1.4, 1.2)
+    write_card(tmp_path / "checkpoint", model.reference_height, 1.4, TRAINING_BODIES, 1.2)
     out = tmp_path / "out"
     main(Options(tmp_path / "checkpoint", TINY, out, frames=122, threads=1, repeats=1))
     scene = np.load(out / "scene.npz")

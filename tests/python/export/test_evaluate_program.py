@@ -1,9 +1,8 @@
-"""The evaluation program: the tiny exported model, the page's skeleton solver, and the shipped numbers."""
+"""The evaluation program: the tiny exported model, and the shipped numbers."""
 
 from __future__ import annotations
 
 import json
-import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,12 +10,13 @@ import numpy as np
 import pytest
 import torch
 
-from export.evaluate import SOLVERS, Options, main, paired_duets, reactor_generator, solve_with_node
+from export.evaluate import Options, main, paired_duets, reactor_generator
 from export.golden import Scene
 from export.manifest import Card
 from export.runtime import open_model
 from export.tiny import tiny_model
 from export.write import write_model
+from tests.python.support.bodies import TRAINING_BODIES
 from tests.python.support.duets import made_duet
 from tests.python.support.real_data import real_file
 from training.checkpoint import (
@@ -31,85 +31,14 @@ from training.data.splits import Split
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.model import Model
 from training.distill import student_diffusion
-from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.duet import duet_metrics
-from training.evaluation.metrics.errors import bone_variation, mpjpe
-from training.evaluation.metrics.penetration import depth as overlap_depth
+from training.evaluation.metrics.errors import mpjpe
 from training.evaluation.protocol import Settings
-from training.motion.skeleton import JOINTS
-from training.music.features import features
-from training.music.recipe import MUSIC_FEATURES, AudioRecipe
+from training.music.recipe import MUSIC_FEATURES
 
 TINY = Path(__file__).parents[2] / "fixtures/tiny-model"
 SHIPPED = Path(__file__).parents[3] / "web/public/models/salsa"
 CHECKPOINTS = Path(__file__).parents[3] / "training/checkpoints"
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
-def test_the_pages_solver_keeps_bones_rigid():
-    """A body whose bones change length gets constant ones, near where it was."""
-    motion = made_duet(60, 1).leader
-    breathing = motion[:, :1] + (motion - motion[:, :1]) * (1 + 0.05 * np.sin(np.arange(60)))[:, None, None]
-    far = motion + np.array([3, 0, 0], np.float32)
-    (solved,) = solve_with_node([breathing], far, None)
-    assert bone_variation(breathing) > 0.02
-    assert bone_variation(solved) < 1e-4
-    assert np.linalg.norm(solved - breathing, axis=-1).mean() < 0.05
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
-def test_what_node_says_of_a_failure_is_said():
-    motion = made_duet(60, 1).leader
-    with pytest.raises(ValueError, match=r"(?s)tools/solve\.mjs failed: .*--no-such-flag"):
-        solve_with_node([motion], motion, None, "--no-such-flag")
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
-def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
-    """A dancer inside the leader is moved aside over the floor, no farther than needed; only arms, which hold the
-    leader's hands, leave their height.
-    """
-    motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
-    inside = motion + np.array([0.1, 0, 0], np.float32)
-    free, solved = (
-        solve_with_node([inside], motion + np.array([x, 0, 0], np.float32), None)[0] for x in (3, 0)
-    )
-    aside = solved - free
-    assert np.median(overlap_depth(motion, inside)) > 0.1
-    body = [j for j, joint in enumerate(JOINTS) if "elbow" not in joint and "wrist" not in joint]
-    assert np.abs(aside[:, body, 1]).max() < 1e-6  # legs are computed again from where they are
-    assert 0.05 < np.linalg.norm(aside[:, body], axis=-1).max() < 0.64
-    trunk = [JOINTS.index(joint) for joint in ("pelvis", "spine1", "spine2", "spine3", "neck", "head")]
-    assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
-def test_the_row_with_foot_lock_has_less_skating() -> None:
-    motion = made_duet(120, 1).leader
-    far = motion + np.array([3, 0, 0], np.float32)
-    free, locked = (solve([motion], far, None)[0] for solve in SOLVERS.values())
-    assert foot_skating(locked)["skate_share"] < 0.5 * foot_skating(free)["skate_share"]
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
-def test_a_drawn_dancer_who_would_slide_steps_to_the_beats_of_the_music() -> None:
-    frames, gap, recipe = 240, 13, AudioRecipe()
-    clicks = np.zeros(frames * recipe.hop)
-    for beat in range(0, frames, gap):
-        clicks[beat * recipe.hop :][:800] = np.random.default_rng(0).normal(size=800) * np.geomspace(
-            1, 0.01, 800
-        )
-    music = features(clicks, recipe)[:frames]
-    there_and_back = 2 - np.abs(np.arange(frames) * 1.4 / 30 % 4 - 2)
-    travel = there_and_back[:, None, None] * np.array([1, 0, 0], np.float32)
-    standing = np.repeat(made_duet(frames, 1).leader[:1], frames, axis=0)
-    (danced,) = solve_with_node([standing + travel], standing + travel + np.array([0, 0, 1]), music)
-    speed = np.linalg.norm(np.diff(danced[:, JOINTS.index("left_ankle")], axis=0), axis=-1)
-    step = np.arange(frames - 1) // gap
-    inner = (step > 1) & (step < 16)
-    # The foot stands during every second beat; during which is told by the first beat that is found.
-    stands, flies = sorted(speed[inner & (step % 2 == half)].mean() for half in (0, 1))
-    assert flies > 1.4 * stands
 
 
 def test_every_argument_of_a_generator_reaches_the_model() -> None:
@@ -147,7 +76,7 @@ def write_duets_and_checkpoint(folder: Path, model: Model) -> Path:
     provenance = {"options": {"val": "('val',)", "test": "('one',)"}}
     save_hfsq(checkpoint, model.hfsq, model.frame, provenance)
     save_denoiser(checkpoint, model.hfsq, model.denoiser, model.diffusion, provenance)
-    write_card(checkpoint, model.reference_height, 1.4, 1.2)
+    write_card(checkpoint, model.reference_height, 1.4, TRAINING_BODIES, 1.2)
     return checkpoint
 
 
@@ -251,11 +180,9 @@ def test_the_duets_that_are_measured_are_those_that_were_asked_for():
 
 
 def test_the_shipped_model_is_that_of_the_held_out_recipe():
-    """Both checkpoints have the same networks, schedule and sampling; they differ in the dances that they saw, and in
-    the song's fade, which acts beside none of the salsa dances.
-    """
+    """Both checkpoints have the same networks, schedule and sampling; they differ in the dances that they saw."""
     shipped, held_out = (load_model(CHECKPOINTS / name) for name in ("salsa", "salsa-held-out"))
-    assert replace(shipped.diffusion, music_fade=None) == held_out.diffusion
+    assert shipped.diffusion == held_out.diffusion
     assert shipped.denoiser.config == held_out.denoiser.config
     assert shipped.frame == held_out.frame
     assert shipped.hfsq.config == held_out.hfsq.config
@@ -264,9 +191,7 @@ def test_the_shipped_model_is_that_of_the_held_out_recipe():
 @pytest.mark.parametrize("name", ["salsa", "salsa-held-out"])
 def test_a_student_has_stage_1_and_condition_of_its_teacher_and_one_step(name: str):
     student, teacher = (load_model(CHECKPOINTS / f"{name}{suffix}") for suffix in ("", "-teacher"))
-    assert student.diffusion == student_diffusion(
-        teacher.diffusion, student.sampling.music_guidance, student.sampling.music_fade
-    )
+    assert student.diffusion == student_diffusion(teacher.diffusion, student.sampling.music_guidance)
     assert student.sampling.steps == 1
     for of_student, of_teacher in (
         (student.hfsq, teacher.hfsq),

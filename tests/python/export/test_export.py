@@ -127,7 +127,6 @@ def test_an_exported_model_is_sampled_by_default_as_the_checkpoint_is() -> None:
         last_time=0.5,
         guidance=(0.25, -0.5),
         music_guidance=2.0,
-        music_fade=(0.5, 0.75),
         variety=1.5,
         mean_seeds=3,
     )

@@ -7,6 +7,9 @@ import numpy as np
 from training.motion.heading import heading
 from training.motion.skeleton import JOINTS
 
+TRAINING_BODIES = {role: np.ones((22, 3)) for role in ("leader", "reactor")}
+"""Of a card whose model is given no leaders."""
+
 
 def rest_pose() -> np.ndarray:
     """A T-pose (22, 3) standing on y = 0, left at +x, facing +z."""

@@ -44,7 +44,13 @@ it('a call that is cancelled before it is made leaves the worker with what it wa
   const generator = await createGenerator({ manifestUrl: 'manifest.json' });
   const settings = { seed: 1, musicGuidance: 1, variety: 1, guidance: new Float32Array(0) };
   const leader = still(30);
-  const request = (role: 'reactor' | 'leader') => ({ leader, music: null, role, ...settings });
+  const request = (role: 'reactor' | 'leader') => ({
+    leader,
+    fitted: leader,
+    music: null,
+    role,
+    ...settings,
+  });
   await generator.generate(request('reactor'));
   const cancelled = new AbortController();
   const never = generator.generate(request('leader'), { signal: cancelled.signal });

@@ -18,7 +18,7 @@ const smallBody = (): number[][] => SMPL22.map((_, joint) => [0, joint === 0 ? 0
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 8,
+    version: 9,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -34,6 +34,7 @@ export function smallJson() {
       reference_height: 1.5,
       reactor_height: 1.4,
       bodies: { reactor: smallBody(), leader: smallBody() },
+      training_bodies: { reactor: smallBody(), leader: smallBody() },
       floor: { ...FLOOR } as { toe_rest: number; percentile: number },
     },
     fps: 30,
@@ -60,7 +61,7 @@ export function smallJson() {
       convention: {} as Record<string, string>,
       coarse: { min: -1, max: 1, step: 0.05, default: 0 },
       fine: { min: -1, max: 1, step: 0.05, default: 0 },
-      music: { min: 0, max: 4, step: 0.25, default: 2, fade: null },
+      music: { min: 0, max: 4, step: 0.25, default: 2 },
       variety: { min: 0, max: 2, step: 0.05, default: 1, seeds: 4 },
     },
     noise: { algorithm: 'philox4x32-10' },

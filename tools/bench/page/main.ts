@@ -10,6 +10,7 @@ import {
   secondsNow,
 } from '../../../web/model/client';
 import { readNpz } from '../../../web/model/load/npz';
+import { solve } from '../../../web/motion/fit/ik';
 import { unitGains } from '../../../web/model/sample/blend';
 
 /**
@@ -82,9 +83,13 @@ export async function measure(preference: Preference, threads: number, repeats: 
     const [music, features] = await timed(() => musicFeatures(song, recipe));
     // Another leader each time: the memory of the last one would be used again.
     const positions = leader.map((value) => value * (1 + run / 1000));
+    // As the page reads a leader, before anything is measured.
+    const clip = { fps: manifest.fps, frames, positions };
+    const fitted = solve(clip);
     const weights = { guidance: unitGains(manifest.latent).fill(0), musicGuidance: 0, variety: 1 };
     const request: GenerateRequest = {
-      leader: { fps: manifest.fps, frames, positions },
+      leader: clip,
+      fitted,
       music,
       ...weights,
       seed: 1,

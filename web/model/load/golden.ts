@@ -86,12 +86,12 @@ export async function goldenError(
   session: ModelSession,
   golden: Golden,
 ): Promise<number> {
-  const { latent, guidance } = manifest;
+  const { latent } = manifest;
   const wanted = { silent: true, unconditional: true, mean: false };
   const branches = await new BranchSampler(manifest, session).branches(golden, golden.seed, wanted);
   // Not by decodeClip, which refuses numbers that are not finite.
   const reactor = await session.decode({
-    latents: blend(branches, { ...golden, variety: 1 }, latent, guidance.music.fade),
+    latents: blend(branches, { ...golden, variety: 1 }, latent),
     leader: golden.leader,
     gains: layerGains(golden.guidance, latent),
     role: golden.role,

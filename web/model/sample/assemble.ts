@@ -74,7 +74,7 @@ export class Assembler {
   /** Joints at the leader's size. */
   async decode({ latents, gains, input, leader }: Dance, options: DecodeOptions): Promise<MotionClip> {
     const { skeleton, latent } = this.manifest;
-    const request = { latents, gains, leader: input.condition.leader, role: input.condition.role };
+    const request = { latents, gains, leader: input.leader, role: input.condition.role };
     const joints = await decodeClip(this.session, this.manifest, request, options);
     const { start, end } = options.range ?? { start: 0, end: Infinity };
     // The last latent frame may reach beyond the dance.

@@ -2,7 +2,6 @@
 import type { Manifest } from '../manifest';
 
 type Latent = Pick<Manifest['latent'], 'streams' | 'layers' | 'channels'>;
-type Fade = Manifest['guidance']['music']['fade'];
 
 /** Latents (latents x layers x channels, normalised) of one dance, sampled from the same noise. */
 export interface Branches {
@@ -41,62 +40,24 @@ export function neededBranches(
  * cond + m (cond - silent), in the coarse layer also + s (cond - uncond) + (v - 1)(cond - mean): variety moves the
  * seed's own coarse layer to mean + v (cond - mean). The fine layer's guidance acts where latents are decoded, see
  * `layerGains`.
- * @param fade where the song is trusted less; null nowhere
  * @returns latents x layers x channels
  */
 export function blend(
   branches: Branches,
   { guidance, musicGuidance, variety }: Weights,
   latent: Latent,
-  fade: Fade,
 ): Float32Array {
   const out = branches.conditional.slice();
-  addMusicGuidance(out, branches, musicGuidance, latent, fade);
+  addMusicGuidance(out, branches, musicGuidance);
   addVariety(out, branches, variety, latent);
   addCoarseGuidance(out, branches, guidance, latent);
   return out;
 }
 
 /** m (cond - silent), in all layers. */
-function addMusicGuidance(
-  out: Float32Array,
-  { conditional, silent }: Branches,
-  weight: number,
-  { layers, channels }: Latent,
-  fade: Fade,
-): void {
+function addMusicGuidance(out: Float32Array, { conditional, silent }: Branches, weight: number): void {
   if (!silent || weight === 0) return;
-  const width = layers.length * channels;
-  const trust = fade && musicTrust(coarseDistances(conditional, silent, width, channels), fade);
-  for (let first = 0, row = 0; first < out.length; first += width, row++) {
-    const own = trust ? weight * trust[row]! : weight;
-    for (let i = first; i < first + width; i++) out[i]! += own * (conditional[i]! - silent[i]!);
-  }
-}
-
-/** Distance of two dances in the coarse layer, which is the first of each latent. */
-function coarseDistances(a: Float32Array, b: Float32Array, width: number, channels: number): Float64Array {
-  const distances = new Float64Array(a.length / width);
-  for (let row = 0; row < distances.length; row++) {
-    let sum = 0;
-    for (let i = row * width; i < row * width + channels; i++) sum += (a[i]! - b[i]!) ** 2;
-    distances[row] = Math.sqrt(sum);
-  }
-  return distances;
-}
-
-/**
- * Factors, 1 to 0, of what the song changes in each latent frame. Beside some leaders that is several times as much as beside
- * any of those of training, and the weight of the music would multiply it until the partner falls. As `music_trust` in Python.
- * @param changes norms of what it changes in the coarse layer
- */
-function musicTrust(changes: Float64Array, { from, to, reach }: NonNullable<Fade>): Float64Array {
-  const last = changes.length - 1;
-  return changes.map((_, at) => {
-    let sum = 0;
-    for (let i = at - reach; i <= at + reach; i++) sum += changes[Math.min(last, Math.max(0, i))]!;
-    return Math.min(1, Math.max(0, (to - sum / (2 * reach + 1)) / (to - from)));
-  });
+  for (let i = 0; i < out.length; i++) out[i]! += weight * (conditional[i]! - silent[i]!);
 }
 
 /** (v - 1)(cond - mean), in the coarse layer, which is the first of each latent. */

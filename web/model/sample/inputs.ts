@@ -1,5 +1,6 @@
 import { stepCounts } from '../../motion/beats/step-timing';
-import type { MotionClip } from '../../motion/skeleton/clip';
+import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import { inBody } from '../../motion/skeleton/kinematics';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { ConditionInput } from './graphs';
 import { AppError } from '../../common/error';
@@ -11,6 +12,8 @@ import type { Weights } from './blend';
 export interface Source {
   /** The dancer to react to, at the size of their file. */
   readonly leader: MotionClip;
+  /** The same dancer on a skeleton. */
+  readonly fitted: SolvedMotion;
   /**
    * frames x features of the song; null for silence. `beats`: seconds of the song, ascending, to which the dancer steps;
    * none when not given. The song starts at frame `start` of the clip, 0 when not given; below 0 its beginning is not
@@ -30,6 +33,7 @@ export interface Source {
 export function sameSource(a: Source, b: Source): boolean {
   return (
     a.leader === b.leader &&
+    a.fitted === b.fitted &&
     a.role === b.role &&
     a.music?.features === b.music?.features &&
     a.music?.beats === b.music?.beats &&
@@ -92,6 +96,8 @@ export interface CoarseRequest extends SolveSettings, Source {
 /** A request as the graphs take it. */
 export interface ModelInput {
   readonly condition: ConditionInput;
+  /** The leader's joints at the model's reference height, latent frames x stride x 22 x 3: what latents are decoded beside. */
+  readonly leader: Float32Array;
   /** The clip's positions were multiplied by this to reach the model's reference height. */
   readonly scale: number;
   /** Steps to the song's beats by each frame, `stepCounts`. */
@@ -103,14 +109,15 @@ function refuse(message: string, hint: string): never {
 }
 
 /** @throws {AppError} `bad-request`, a sentence about the first thing that the model cannot take */
-export function checkSource({ leader, music }: Source, { skeleton, fps, audio }: Manifest): void {
+export function checkSource({ leader, fitted, music }: Source, { skeleton, fps, audio }: Manifest): void {
   if (leader.fps !== fps) {
     refuse(
       `The leader has ${leader.fps} frames per second; the model takes ${fps}.`,
       'Resample the clip first.',
     );
   }
-  if (leader.frames < 1 || leader.positions.length !== leader.frames * skeleton.joints.length * 3) {
+  const length = leader.frames * skeleton.joints.length * 3;
+  if (leader.frames < 1 || [leader, fitted].some(({ positions }) => positions.length !== length)) {
     refuse('The leader clip is empty or incomplete.', 'Choose another leader file.');
   }
   if (!leader.positions.every(Number.isFinite)) {
@@ -159,18 +166,26 @@ export function checkCoarse({ leader, latents }: CoarseRequest, { latent }: Mani
   refuse('The reaction was not made for this leader by this model.', 'Generate the reaction again.');
 }
 
-/** Scale the leader to the reference height, and bring leader and music to a common, whole number of latent frames. */
-export function prepareInput({ leader, music, role }: Source, manifest: Manifest): ModelInput {
+/**
+ * Scales the leader to the reference height, and brings leader and music to a common, whole number of latent frames. The
+ * condition gets the leader in the body of those of the training: rigs put shoulders and hips in other places, and the
+ * network has seen few bodies.
+ */
+export function prepareInput({ leader, fitted, music, role }: Source, manifest: Manifest): ModelInput {
   const { latent, skeleton, audio } = manifest;
   const frame = skeleton.joints.length * 3;
   const frames = Math.ceil(leader.frames / latent.stride) * latent.stride;
   const scale = skeleton.reference_height / bodyHeight(leader);
   if (!Number.isFinite(scale)) refuse('The leader has no body height.', 'Choose another leader file.');
-  const positions = new Float32Array(frames * frame);
-  leader.positions.forEach((value, i) => (positions[i] = value * scale));
-  for (let at = leader.frames * frame; at < positions.length; at += frame) {
-    positions.copyWithin(at, (leader.frames - 1) * frame, leader.frames * frame);
-  }
+  const given = role === 'leader' ? 'reactor' : 'leader';
+  const known = Float32Array.from(skeleton.training_bodies[given].flat());
+  const whole = (values: Float32Array): Float32Array => {
+    const positions = new Float32Array(frames * frame);
+    positions.set(values);
+    for (let at = values.length; at < positions.length; at += frame)
+      positions.copyWithin(at, values.length - frame, values.length);
+    return positions;
+  };
   const features = new Float32Array(frames * audio.features);
   const musicValid = new Float32Array(frames);
   if (music !== null) {
@@ -183,7 +198,13 @@ export function prepareInput({ leader, music, role }: Source, manifest: Manifest
   }
   const beats = music?.beats?.map((seconds) => (music.start ?? 0) + seconds * leader.fps) ?? [];
   return {
-    condition: { leader: positions, music: features, musicValid, role: role === 'leader' ? 1 : 0 },
+    condition: {
+      leader: whole(inBody(leader, fitted, known, scale)),
+      music: features,
+      musicValid,
+      role: role === 'leader' ? 1 : 0,
+    },
+    leader: whole(leader.positions.map((value) => value * scale)),
     scale,
     steps: stepCounts(beats, frames, leader.fps),
   };

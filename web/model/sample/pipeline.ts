@@ -121,7 +121,7 @@ export class Pipeline {
   }
 
   async #blend(request: GenerateRequest, { signal, onProgress }: GenerateOptions): Promise<SampledDance> {
-    const { latent, guidance } = this.manifest;
+    const { latent } = this.manifest;
     checkSettings(request, this.manifest);
     const input = this.#inputOf(request);
     const wanted = neededBranches(request, latent);
@@ -132,7 +132,7 @@ export class Pipeline {
     });
     const { leader, role, height, holdHands } = request;
     return {
-      latents: blend(branches, request, latent, guidance.music.fade),
+      latents: blend(branches, request, latent),
       gains: layerGains(request.guidance, latent),
       input,
       leader,
@@ -151,8 +151,8 @@ export class Pipeline {
   }
 
   /** The source as the graphs take it; made once while the same objects are asked for. */
-  #inputOf({ leader, music, role }: Source): ModelInput {
-    const source = { leader, music, role };
+  #inputOf({ leader, fitted, music, role }: Source): ModelInput {
+    const source = { leader, fitted, music, role };
     if (!this.#prepared || !sameSource(this.#prepared.source, source)) {
       checkSource(source, this.manifest);
       this.#prepared = { source, input: prepareInput(source, this.manifest) };

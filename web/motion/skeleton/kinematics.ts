@@ -1,4 +1,4 @@
-import type { SolvedMotion } from './clip';
+import type { MotionClip, SolvedMotion } from './clip';
 import { addScaled, multiplyRows, rotateRow } from '../math/rows';
 import { J, JOINT_COUNT, PARENTS } from './skeleton';
 
@@ -62,4 +62,26 @@ export function restRootHeight(offsets: Float32Array): number {
 /** Height of a dancer who stands straight, from the floor to the crown of the head, metres. */
 export function standingHeight(offsets: Float32Array): number {
   return restRootHeight(offsets) + restPositions(offsets)[J.head * 3 + 1]! + CROWN;
+}
+
+/**
+ * The same dance in another body: every joint is turned as before, and what the skeleton did not fit is kept. Over the floor
+ * the root moves `scale` times as far, and its height changes with the length of the legs.
+ *
+ * @param clip the dance as it was read
+ * @param fitted the same on a skeleton, `solve`
+ * @param offsets rest offsets of the other body, as in `forwardKinematics`
+ * @param scale of the other body to this one
+ * @returns frames x 22 x 3, metres
+ */
+export function inBody(
+  clip: MotionClip,
+  fitted: SolvedMotion,
+  offsets: Float32Array,
+  scale: number,
+): Float32Array {
+  const legs = restRootHeight(offsets) / restRootHeight(fitted.offsets);
+  const root = fitted.root.map((value, i) => value * (i % 3 === 1 ? legs : scale));
+  const positions = forwardKinematics(offsets, root, fitted.rotations);
+  return positions.map((value, i) => value + scale * (clip.positions[i]! - fitted.positions[i]!));
 }

@@ -57,8 +57,8 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
     try {
       const generator = await model();
       for (const { inputs, latents } of missing) {
-        const { leader, music, role, height, holdHands } = requestFor(inputs, generator.manifest);
-        const request = { leader, music, role, height, holdHands, latents };
+        const { leader, fitted, music, role, height, holdHands } = requestFor(inputs, generator.manifest);
+        const request = { leader, fitted, music, role, height, holdHands, latents };
         const { motion, locked } = await generator.coarse(request, { signal });
         cacheLocked(motion, locked);
         decodedMotions.set(latents, motion);

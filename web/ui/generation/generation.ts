@@ -197,6 +197,7 @@ function playheadOf({ playback, leader }: AppState): Playhead {
 export function requestFor({ song, leader, shift, settings }: Inputs, manifest: Manifest): GenerateRequest {
   return {
     leader: leader.file.clip,
+    fitted: leader.motion,
     music: song && {
       features: song.data.features,
       frames: song.data.frames,

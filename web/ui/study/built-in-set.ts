@@ -59,13 +59,18 @@ export async function builtInSet(parts: BuiltInParts): Promise<StudySet> {
       return parts.readLeader(path, bytes);
     });
     const generated = async (coarse: 'min' | 'default' | 'max'): Promise<SolvedMotion> => {
-      const [{ file }, generator, music] = await Promise.all([leader(), parts.generator(), analysed()]);
+      const [{ file, motion }, generator, music] = await Promise.all([
+        leader(),
+        parts.generator(),
+        analysed(),
+      ]);
       const { guidance, latent } = generator.manifest;
       const layers = latent.streams.flatMap(() =>
         latent.layers.map((layer) => (layer === 'coarse' ? guidance.coarse[coarse] : guidance.fine.default)),
       );
       const { locked } = await generator.generate({
         leader: file.clip,
+        fitted: motion,
         music: { features: music.features, frames: music.frames, beats: music.rhythm.beats },
         guidance: Float32Array.from(layers),
         musicGuidance: guidance.music.default,

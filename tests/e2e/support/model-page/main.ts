@@ -5,6 +5,7 @@ import { GRAPHS, type GraphName } from '../../../../web/model/manifest';
 import type { Provider } from '../../../../web/model/load/runtime';
 import { openSession } from '../../../../web/model/load/session';
 import { readNpz } from '../../../../web/model/load/npz';
+import { solve } from '../../../../web/motion/fit/ik';
 import {
   createGenerator,
   type Generator,
@@ -122,8 +123,10 @@ export const page = {
   request(frames: number): GenerateRequest {
     const array = (name: string): Float32Array => Float32Array.from(golden?.get(name)?.data ?? []);
     const columns = (golden?.get('music')?.shape[1] ?? 0) * frames;
+    const leader = { fps: 30, frames, positions: array('leader').slice(0, frames * 66) };
     return {
-      leader: { fps: 30, frames, positions: array('leader').slice(0, frames * 66) },
+      leader,
+      fitted: solve(leader),
       music: { features: array('music').slice(0, columns), frames },
       guidance: Float32Array.from([...array('coarse')].flatMap((weight, i) => [weight, array('fine')[i]!])),
       musicGuidance: array('music_guidance')[0] ?? NaN,

@@ -12,6 +12,7 @@ import { Pipeline } from '../../../../web/model/sample/pipeline';
 import { sample, type Sampling } from '../../../../web/model/sample/sampler';
 import { ddim } from '../../../../web/model/sample/schedule';
 import { type ModelSession, openSession } from '../../../../web/model/load/session';
+import { solve } from '../../../../web/motion/fit/ik';
 import { maxDifference, type OpenedModel, openModel, otherFiles, TINY } from '../../support/open-model';
 
 let model: OpenedModel;
@@ -83,7 +84,7 @@ describe('the tiny model on wasm', () => {
     const mean = array('branches').subarray(3 * size);
     const coarse = mean.filter((_, i) => Math.floor(i / channels) % layers.length === 0);
     expect(maxDifference(branches.mean ?? [], coarse)).toBeLessThan(1e-4);
-    const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent, manifest.guidance.music.fade);
+    const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent);
     expect(maxDifference(blended, array('latents'))).toBeLessThan(1e-3);
   });
 
@@ -101,9 +102,10 @@ describe('the tiny model on wasm', () => {
     const heard = golden.musicValid.filter((valid) => valid !== 0).length;
     const { features } = manifest.audio;
     const { guidance, musicGuidance, seed } = golden;
+    const leader = { fps: manifest.fps, frames, positions: golden.leader };
     const asked = {
       ...{ guidance, musicGuidance, seed },
-      leader: { fps: manifest.fps, frames, positions: golden.leader },
+      ...{ leader, fitted: solve(leader) },
       music: { features: golden.music.subarray(0, heard * features), frames: heard },
       variety: 1,
     };

@@ -5,16 +5,31 @@ import {
   prepareInput,
   sameDecoded,
 } from '../../../../web/model/sample/inputs';
+import type { MotionClip } from '../../../../web/motion/skeleton/clip';
+import { solve } from '../../../../web/motion/fit/ik';
+import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
+import { bodyHeight } from '../../../../web/motion/skeleton/scale';
+import { J } from '../../../../web/motion/skeleton/skeleton';
+import { madeDancer } from '../../support/made-dancer';
 import { small } from '../../support/small-manifest';
 
 const WIDTH = small.audio.features;
+
+/** Largest difference of two lists of numbers. */
+const worst = (a: Float32Array, b: Float32Array): number =>
+  a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i]!)), 0);
+
+const loaded = (leader: MotionClip): Pick<GenerateRequest, 'leader' | 'fitted'> => ({
+  leader,
+  fitted: solve(leader),
+});
 
 /** A standing leader of some frames and a song whose features in frame f are all f + 1. */
 function request(frames: number, song: { frames: number; start?: number } | null): GenerateRequest {
   const positions = new Float32Array(frames * small.skeleton.joints.length * 3);
   for (let i = 0; i < positions.length; i += 3) positions[i + 1] = ((i / 3) % 22) * 0.08;
   return {
-    leader: { fps: small.fps, frames, positions },
+    ...loaded({ fps: small.fps, frames, positions }),
     music: song && {
       ...song,
       features: Float32Array.from({ length: song.frames * WIDTH }, (_, i) => Math.floor(i / WIDTH) + 1),
@@ -67,11 +82,46 @@ describe('the leader in the model', () => {
   it('stands still after the end, up to a whole latent frame', () => {
     const what = request(7, null);
     const width = what.leader.positions.length / 7;
-    what.leader.positions.forEach((value, i) => (what.leader.positions[i] = value + Math.floor(i / width)));
-    const { leader } = prepareInput(what, small).condition;
-    expect(leader).toHaveLength(8 * width);
-    expect(leader.subarray(7 * width)).toEqual(leader.subarray(6 * width, 7 * width));
-    expect(leader[6 * width]).not.toBe(leader[5 * width]);
+    const positions = what.leader.positions.map((value, i) => value + Math.floor(i / width));
+    const input = prepareInput({ ...what, ...loaded({ ...what.leader, positions }) }, small);
+    for (const leader of [input.condition.leader, input.leader]) {
+      expect(leader).toHaveLength(8 * width);
+      expect(leader.subarray(7 * width)).toEqual(leader.subarray(6 * width, 7 * width));
+      expect(leader[6 * width]).not.toBe(leader[5 * width]);
+    }
+  });
+
+  it('has the body of the training in the condition, and their own beside what is decoded', () => {
+    const leader = madeDancer({ frames: 60 });
+    // Shoulders as narrow as some rigs have them.
+    const offsets = leader.offsets.map(
+      (value, i) => value * (Math.floor(i / 3) === J.left_shoulder ? 0.5 : 1),
+    );
+    const narrow = {
+      ...leader,
+      offsets,
+      positions: forwardKinematics(offsets, leader.root, leader.rotations),
+    };
+    const body = Array.from({ length: 22 }, (_, joint) => [
+      ...leader.offsets.subarray(3 * joint, 3 * joint + 3),
+    ]);
+    const skeleton = {
+      ...small.skeleton,
+      reference_height: bodyHeight(leader),
+      training_bodies: { leader: body, reactor: body.map((offset) => offset.map((value) => value * 0.9)) },
+    };
+    const input = prepareInput({ leader: narrow, fitted: narrow, music: null }, { ...small, skeleton });
+    expect(worst(input.condition.leader, leader.positions)).toBeLessThan(1e-5);
+    expect(worst(input.leader, narrow.positions)).toBeLessThan(1e-5);
+    const asLeader = prepareInput(
+      { leader: narrow, fitted: narrow, music: null, role: 'leader' },
+      { ...small, skeleton },
+    );
+    expect(worst(asLeader.condition.leader, leader.positions)).toBeGreaterThan(0.05);
+    expect(bodyHeight({ ...leader, positions: asLeader.condition.leader })).toBeCloseTo(
+      0.9 * bodyHeight(leader),
+      4,
+    );
   });
 });
 
@@ -85,6 +135,7 @@ describe('two requests', () => {
 
   it.each<[string, Partial<GenerateRequest>]>([
     ['leader', { leader: { ...one.leader } }],
+    ['leader on a skeleton', { fitted: { ...one.fitted } }],
     ['song', { music: null }],
     ['features', { music: { ...one.music!, features: one.music!.features.slice() } }],
     ['start of the song', { music: { ...one.music!, start: 4 } }],

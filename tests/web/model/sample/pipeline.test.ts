@@ -10,6 +10,7 @@ import type { Manifest } from '../../../../web/model/manifest';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { withFootLock } from '../../../../web/motion/contact/foot-lock';
 import { holdHands } from '../../../../web/motion/contact/hand-hold';
+import { solve } from '../../../../web/motion/fit/ik';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
 import { readVec, type Vec3, writeVec } from '../../../../web/motion/math/vec3';
@@ -54,11 +55,17 @@ function withSteps(manifest: Manifest, steps: number): Manifest {
   return { ...manifest, diffusion: { ...manifest.diffusion, steps } };
 }
 
+/** A leader as the page has read it. */
+const loaded = (leader: MotionClip): Pick<GenerateRequest, 'leader' | 'fitted'> => ({
+  leader,
+  fitted: solve(leader),
+});
+
 /** The first frames of the golden leader, and features as long. */
 function request(frames: number, changes: Partial<GenerateRequest> = {}): GenerateRequest {
   const { golden, manifest } = model;
   return {
-    leader: { fps: 30, frames, positions: golden.leader.slice(0, frames * 66) },
+    ...loaded({ fps: 30, frames, positions: golden.leader.slice(0, frames * 66) }),
     music: { features: golden.music.slice(0, frames * manifest.audio.features), frames },
     guidance: new Float32Array(6),
     musicGuidance: 0,
@@ -175,7 +182,7 @@ describe('Pipeline', () => {
     const weights = {
       guidance: new Float32Array(6).fill(0.5),
       musicGuidance: 2,
-      leader: travelling(request(600).leader, travel),
+      ...loaded(travelling(request(600).leader, travel)),
       music: beating(600, 13),
     };
     const playhead = { frame: at * 30, at: 0, rate: 0 };
@@ -246,7 +253,7 @@ describe('Pipeline', () => {
     const large = scaled(leader, 1.3);
     const [plain, enlarged] = [
       await pipeline.generate(request(120, { leader })),
-      await pipeline.generate(request(120, { leader: large })),
+      await pipeline.generate(request(120, loaded(large))),
     ];
     const seen: MotionClip = { fps: 30, frames: 120, positions: conditions[0]?.leader ?? new Float32Array() };
     expect(bodyHeight(seen)).toBeCloseTo(model.manifest.skeleton.reference_height, 4);
@@ -272,7 +279,7 @@ describe('Pipeline', () => {
     const other = first.music?.features.map((value) => value + 1) ?? new Float32Array();
     await pipeline.generate({ ...first, music: { features: other, frames: 120 }, role: 'leader' });
     await pipeline.generate({ ...first, music: null, role: 'leader' });
-    await pipeline.generate({ ...first, leader: request(119).leader });
+    await pipeline.generate({ ...first, ...loaded(request(119).leader) });
     expect(conditions.map(({ role }) => role)).toEqual([0, 1, 1, 1, 0]);
     // A song that ends earlier is another one, even if its features are zeros as those of silence.
     for (const frames of [120, 60]) {
@@ -303,7 +310,7 @@ describe('Pipeline', () => {
   });
 
   it('decodes the coarse layer alone from the latents of a reaction, as long and as large as the whole', async () => {
-    const large = request(121, { leader: scaled(request(121).leader, 1.3) });
+    const large = request(121, loaded(scaled(request(121).leader, 1.3)));
     const { motion, latents } = await pipeline.generate(large);
     expect(latents).toHaveLength(31 * model.manifest.latent.layers.length * model.manifest.latent.channels);
     const asked: number[][] = [];
@@ -337,7 +344,7 @@ describe('Pipeline', () => {
       decode: ({ leader }) => Promise.resolve(leader.map((value, i) => (i % 3 === 2 ? value + 1 : value))),
     };
     const slides = new Pipeline(model.manifest, session, () => 0);
-    const dance = { ...request(240), leader: travelling(request(240).leader, 1.4) };
+    const dance = { ...request(240), ...loaded(travelling(request(240).leader, 1.4)) };
     for (const [gap, start] of [
       [8, 0],
       [13, 0],
@@ -463,7 +470,7 @@ describe('Pipeline', () => {
       for (const size of [1, 1.2]) {
         const plain = request(120, { role });
         const leader = scaled(plain.leader, size);
-        const { motion } = await known.generate({ ...plain, leader });
+        const { motion } = await known.generate({ ...plain, ...loaded(leader) });
         const proportion = bodyHeight(motion) / bodyHeight(leader);
         expect(proportion).toBeCloseTo(role === 'reactor' ? 0.9 : 1 / 0.9, 4);
       }

@@ -75,6 +75,7 @@ describe('the coarse layer', () => {
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: true });
     expect(model.calls[0]?.request).toEqual({
       leader: shown.inputs.leader.file.clip,
+      fitted: shown.inputs.leader.motion,
       music: {
         features: shown.inputs.song.data.features,
         frames: shown.inputs.song.data.frames,
