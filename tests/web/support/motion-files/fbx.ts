@@ -5,21 +5,21 @@ import { aboutAxis, conjugate, multiply, type Quat } from '../../../../web/motio
 import { X_AXIS, Y_AXIS, Z_AXIS, type Vec3 } from '../../../../web/motion/math/vec3';
 
 /** A value with its FBX type. */
-type Value = ['I' | 'L' | 'D' | 'S', number | bigint | string] | ['l' | 'f' | 'd', readonly number[]];
+export type Value = ['I' | 'L' | 'D' | 'S', number | bigint | string] | ['l' | 'f' | 'd', readonly number[]];
 
-interface Node {
+export interface Node {
   readonly name: string;
   readonly values: readonly Value[];
   readonly children: readonly Node[];
 }
 
-const node = (name: string, values: readonly Value[] = [], children: readonly Node[] = []): Node => ({
+export const node = (name: string, values: readonly Value[] = [], children: readonly Node[] = []): Node => ({
   name,
   values,
   children,
 });
 
-const TICKS = 46_186_158_000;
+export const TICKS = 46_186_158_000;
 const DEGREES = 180 / Math.PI;
 /** Scales of the two objects above an armature. */
 const [OUTER_SCALE, INNER_SCALE] = [50, 2];
@@ -52,10 +52,10 @@ interface Options {
   readonly armature?: boolean;
 }
 
-const property = (name: string, type: string, ...values: Value[]): Node =>
+export const property = (name: string, type: string, ...values: Value[]): Node =>
   node('P', [['S', name], ['S', type], ['S', ''], ['S', 'A'], ...values]);
 
-const vector = (name: string, v: Vec3): Node =>
+export const vector = (name: string, v: Vec3): Node =>
   property(name, name.startsWith('Lcl') ? name : 'Vector3D', ...v.map((value): Value => ['D', value]));
 
 /** Angles about x, then y, then z, degrees. */
@@ -391,7 +391,7 @@ export function writeFbxDuet(
   );
 }
 
-function binaryFbx(nodes: readonly Node[], packed: boolean, wide = false): Uint8Array<ArrayBuffer> {
+export function binaryFbx(nodes: readonly Node[], packed: boolean, wide = false): Uint8Array<ArrayBuffer> {
   const out = new Bytes();
   out.push(...new TextEncoder().encode('Kaydara FBX Binary  \0'), 0x1a, 0);
   out.uint32(wide ? 7500 : 7400);

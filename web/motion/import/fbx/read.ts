@@ -2,7 +2,7 @@ import { readAscii } from './ascii';
 import { readBinary } from './binary';
 import { damagedFbx } from './node';
 import { type Clip, type Curve, type FbxScene, type Model, sceneOf } from './scene';
-import { rigOf } from './transform';
+import { placeWithin, rigOf, type Stretch, stretchOf } from './transform';
 import { refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { writeQuat } from '../../math/quat';
@@ -106,8 +106,8 @@ function animationOf(clip: Clip): Map<string, readonly (Curve | null)[]> {
 }
 
 /**
- * Poses of all models at times in ticks. A model's scale is handed to the places of what hangs on it, so that armatures
- * in centimetres under a scaled object keep their size.
+ * Poses of all models at times in ticks. Rotations are those of the models; translations are such that every joint is
+ * where its file has it, scales of all kinds included.
  */
 function posesOf(
   scene: FbxScene,
@@ -132,24 +132,20 @@ function posesOf(
     }) as unknown as Vec3;
   };
   times.forEach((time, frame) => {
-    const sizes: Vec3[] = [];
+    const stretches: Stretch[] = [];
     order.forEach(({ id }, index) => {
       const rig = rigs[index]!;
       const parent = parents[index]!;
-      const above: Vec3 = parent < 0 ? [1, 1, 1] : sizes[parent]!;
+      const above = parent < 0 ? null : stretches[parent]!;
       const size = value(id, 'Lcl Scaling', rig.scale, time);
       const { place, turn } = rig.local(
         value(id, 'Lcl Translation', rig.translation, time),
         value(id, 'Lcl Rotation', rig.rotation, time),
         size,
       );
-      sizes.push([above[0] * size[0], above[1] * size[1], above[2] * size[2]]);
+      stretches.push(stretchOf(above, turn, size, rig.inheritance));
       writeQuat(out.rotations, frame * order.length + index, turn);
-      writeVec(out.translations, frame * order.length + index, [
-        place[0] * above[0],
-        place[1] * above[1],
-        place[2] * above[2],
-      ]);
+      writeVec(out.translations, frame * order.length + index, above ? placeWithin(above, place) : place);
     });
   });
   return out;

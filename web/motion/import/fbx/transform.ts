@@ -1,3 +1,4 @@
+import { Matrix4, Quaternion, Vector3 } from 'three';
 import { vectorOf, type Model } from './scene';
 import { aboutAxis, conjugate, multiply, type Quat, rotate } from '../../math/quat';
 import { add, sub, type Vec3, X_AXIS, Y_AXIS, Z_AXIS, ZERO } from '../../math/vec3';
@@ -30,11 +31,21 @@ export interface LocalTransform {
   readonly turn: Quat;
 }
 
+/**
+ * How a model takes on what scales its parent: before its own rotation, after it, or without the parent's own scale, as
+ * joints of Maya that compensate it.
+ */
+type Inheritance = 'before' | 'after' | 'compensated';
+
+/** By FBX's number: RrSs, RSrs and Rrs. */
+const INHERITANCES: readonly Inheritance[] = ['after', 'before', 'compensated'];
+
 /** Fixed parts of a model's transform. */
 export interface Rig {
   readonly translation: Vec3;
   readonly rotation: Vec3;
   readonly scale: Vec3;
+  readonly inheritance: Inheritance;
   /** Transform for given animated values. */
   readonly local: (translation: Vec3, rotation: Vec3, scale: Vec3) => LocalTransform;
 }
@@ -65,6 +76,53 @@ export function rigOf({ properties }: Model): Rig {
     translation: vector('Lcl Translation'),
     rotation: vector('Lcl Rotation'),
     scale: vector('Lcl Scaling', ONE),
+    inheritance: INHERITANCES[Number(properties.get('InheritType')?.[0] ?? 0)] ?? 'after',
     local,
   };
+}
+
+/**
+ * What scales, mirrors or shears a model, in the axes that all rotations above it and its own give it: its transform in the
+ * world is these rotations after it.
+ */
+export interface Stretch {
+  /** What comes from above. */
+  readonly inherited: Matrix4;
+  /** The same with the model's own scale, for what hangs on it. */
+  readonly whole: Matrix4;
+}
+
+const UNSTRETCHED: Stretch = { inherited: new Matrix4(), whole: new Matrix4() };
+
+/** The place of what hangs on a model, in the axes of that model. */
+export function placeWithin({ whole }: Stretch, place: Vec3): Vec3 {
+  return new Vector3(...place).applyMatrix4(whole).toArray();
+}
+
+/**
+ * The stretch of a model that hangs on `above`, which is null for none, as the FBX SDK composes it; the axes of a mirror
+ * turn what hangs on it, as there. Compensated is as in Maya: only the parent's own scale is taken out.
+ *
+ * @param turn the model's rotation from its parent
+ */
+export function stretchOf(above: Stretch | null, turn: Quat, size: Vec3, inheritance: Inheritance): Stretch {
+  const { inherited: outer, whole: all } = above ?? UNSTRETCHED;
+  const rotation = new Matrix4().makeRotationFromQuaternion(new Quaternion(...turn));
+  const from = inheritance === 'compensated' ? outer : all;
+  // Only the lengths of the axes act after the rotation; their directions, as of a mirror, come before it.
+  const lengths = new Vector3(...ONE);
+  if (inheritance === 'after') lengths.setFromMatrixScale(from);
+  const [x, y, z] = lengths.toArray().map((length) => (length > 0 ? 1 / length : 1)) as [
+    number,
+    number,
+    number,
+  ];
+  const inherited = rotation
+    .clone()
+    .transpose()
+    .multiply(from)
+    .scale(new Vector3(x, y, z))
+    .multiply(rotation)
+    .scale(lengths);
+  return { inherited, whole: inherited.clone().scale(new Vector3(...size)) };
 }
