@@ -19,8 +19,8 @@ export interface FbxObject {
 interface Options {
   /** Names of a child, of a parent and of the property that connects them. */
   readonly links?: readonly (readonly [string, string, string])[];
-  /** By the name of each layer of the one clip: the object whose height has keys of the values 1, 2 and 3 in it. */
-  readonly layers?: readonly (readonly [string, string])[];
+  /** By the name of each layer of the one clip: the object whose height has keys of the values 1, 2 and 3 in it, if any. */
+  readonly layers?: readonly (readonly [string, string | null])[];
   /** Nodes that are added to the objects. */
   readonly others?: readonly Node[];
 }
@@ -67,6 +67,8 @@ export function writeFbxObjects(
   const stack = 1000;
   const animation = layers.flatMap(([name, moved], i) => {
     const [layer, curves, curve] = [2000 + i, 3000 + i, 4000 + i];
+    if (moved === null)
+      return { nodes: [titled('AnimationLayer', layer, name)], links: [link(layer, stack)] };
     return {
       nodes: [
         titled('AnimationLayer', layer, name),

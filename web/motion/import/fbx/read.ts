@@ -213,7 +213,7 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
     upAxis: upOf(scene),
     parts: clips.length > 1 ? clips.map(({ name }) => name.slice(0, 80)) : [],
     part: clips.indexOf(clip),
-    warnings: [],
+    warnings: clip.warnings,
     truncated: false,
     localPoses: (wanted) =>
       posesOf(

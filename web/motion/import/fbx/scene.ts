@@ -27,7 +27,12 @@ export interface Channel {
 export interface Clip {
   readonly name: string;
   readonly channels: readonly Channel[];
+  /** Sentences about what was left out. */
+  readonly warnings: readonly string[];
 }
+
+/** A part of a clip, which programs add to the others or put in their place. */
+type Layer = Pick<Clip, 'name' | 'channels'>;
 
 /** The hierarchy and the animation of a file. */
 export interface FbxScene {
@@ -79,6 +84,7 @@ const entryOf = (node: FbxNode): Entry => {
 interface Link {
   readonly child: string;
   readonly parent: string;
+  /** What the child gives its value to; empty where it hangs on the parent. */
   readonly property: string;
 }
 
@@ -111,12 +117,27 @@ function byParent(links: readonly Link[]): Map<string, Link[]> {
   return found;
 }
 
-/** The clips: every stack with its first layer's channels. */
+/** Whether something has more than a pose in a layer. */
+const moves = ({ channels }: Layer): boolean =>
+  channels.some(({ curves }) => curves.some((curve) => curve && curve.times.length > 1));
+
+/** A clip with the channels of one of its layers; null where none has any. */
+function clipOf(name: string, layers: readonly Layer[]): Clip | null {
+  const keyed = layers.filter(({ channels }) => channels.length > 0);
+  const layer = keyed.find(moves) ?? keyed[0];
+  if (!layer) return null;
+  const others = keyed.length - 1;
+  const have = others === 1 ? 'Another one has' : `${others} others have`;
+  const warning = `Only the layer “${layer.name.slice(0, 80)}” of this animation was read. ${have} keys too, which were left out: merge the layers before the export.`;
+  return { name, channels: layer.channels, warnings: others > 0 ? [warning] : [] };
+}
+
+/** The clips: every stack with the channels of its first layer that moves something. */
 function clipsOf(objects: ReadonlyMap<string, readonly Entry[]>, links: readonly Link[]): Clip[] {
   const under = byParent(links);
   const curves = new Map((objects.get('AnimationCurve') ?? []).map((entry) => [entry.id, entry]));
   const nodes = new Set((objects.get('AnimationCurveNode') ?? []).map(({ id }) => id));
-  const layers = new Set((objects.get('AnimationLayer') ?? []).map(({ id }) => id));
+  const layers = new Map((objects.get('AnimationLayer') ?? []).map((entry) => [entry.id, entry]));
   const targets = new Map(links.filter(({ child }) => nodes.has(child)).map((link) => [link.child, link]));
   for (const link of links)
     if (nodes.has(link.child) && link.property.startsWith('Lcl ')) targets.set(link.child, link);
@@ -132,9 +153,13 @@ function clipsOf(objects: ReadonlyMap<string, readonly Entry[]>, links: readonly
       return [{ model: target.parent, property: target.property, curves: axes }];
     });
   return (objects.get('AnimationStack') ?? []).flatMap(({ id, name }) => {
-    const layer = (under.get(id) ?? []).find(({ child }) => layers.has(child));
-    const channels = layer ? channelsOf(layer.child) : [];
-    return channels.length > 0 ? [{ name, channels }] : [];
+    const inside = (under.get(id) ?? []).flatMap(({ child }) => layers.get(child) ?? []);
+    return (
+      clipOf(
+        name,
+        inside.map((layer) => ({ name: layer.name, channels: channelsOf(layer.id) })),
+      ) ?? []
+    );
   });
 }
 
@@ -145,8 +170,11 @@ function clipsOf(objects: ReadonlyMap<string, readonly Entry[]>, links: readonly
  */
 export function sceneOf(nodes: readonly FbxNode[]): FbxScene {
   const objects = new Map<string, Entry[]>();
-  for (const node of nodes.find(({ name }) => name === 'Objects')?.children ?? [])
-    objects.set(node.name, [...(objects.get(node.name) ?? []), entryOf(node)]);
+  for (const node of nodes.find(({ name }) => name === 'Objects')?.children ?? []) {
+    const list = objects.get(node.name);
+    if (list) list.push(entryOf(node));
+    else objects.set(node.name, [entryOf(node)]);
+  }
   const links = linksOf(nodes.find(({ name }) => name === 'Connections'));
   const models = new Map(
     (objects.get('Model') ?? []).map(({ id, node, name }) => [
@@ -156,7 +184,8 @@ export function sceneOf(nodes: readonly FbxNode[]): FbxScene {
   );
   const parents = new Map(
     links
-      .filter(({ child, parent }) => models.has(child) && models.has(parent))
+      // A property takes its value from an object that is no child: what a camera looks at.
+      .filter(({ child, parent, property }) => property === '' && models.has(child) && models.has(parent))
       .map(({ child, parent }) => [child, parent]),
   );
   return {

@@ -123,3 +123,47 @@ describe('scales', () => {
         expect(place.every(Number.isFinite)).toBe(true);
   });
 });
+
+test('what an object looks at is not its child', () => {
+  const objects: FbxObject[] = [
+    { name: 'Camera', type: 'Camera', translation: [100, 0, 0] },
+    { name: 'Hips', translation: [1, 2, 3] },
+    { name: 'Spine', parent: 'Hips', translation: [0, 5, 1] },
+  ];
+  const places = placesIn(writeFbxObjects(objects, { links: [['Hips', 'Camera', 'LookAtProperty']] }));
+  expect([...places]).toEqual([
+    ['Hips', [1, 2, 3]],
+    ['Spine', [1, 7, 4]],
+  ]);
+});
+
+describe('layers of a clip', () => {
+  const objects: FbxObject[] = [{ name: 'Hips' }, { name: 'Spine', parent: 'Hips' }];
+  const read = (layers: readonly (readonly [string, string | null])[]): [number, readonly string[]] => {
+    const source = readFbx(writeFbxObjects(objects, { layers }), 0);
+    return [source.localPoses([2]).translations[1]!, source.warnings];
+  };
+
+  test('one alone has no warning, and an empty one neither', () => {
+    expect(read([['Base', 'Hips']])).toEqual([3, []]);
+    expect(
+      read([
+        ['Base', 'Hips'],
+        ['Empty', null],
+      ]),
+    ).toEqual([3, []]);
+  });
+
+  test('the first one with keys is read, and the others are named', () => {
+    const [height, warnings] = read([
+      ['Empty', null],
+      ['Base', 'Hips'],
+      ['Hands', 'Spine'],
+      ['Corrections', 'Hips'],
+    ]);
+    expect(height).toBe(3);
+    expect(warnings).toEqual([
+      'Only the layer “Base” of this animation was read. 2 others have keys too, which were left out: merge the layers before the export.',
+    ]);
+  });
+});
