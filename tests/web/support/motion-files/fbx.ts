@@ -333,14 +333,16 @@ function writeValue(out: Bytes, [type, value]: Value, packed: boolean): void {
     out.uint32(bytes.length);
     out.push(...bytes);
   } else if (typeof value === 'number' || typeof value === 'bigint') {
-    if (type === 'I') out.number(4, (view) => view.setInt32(0, Number(value), true));
+    if (type === 'Z') out.number(1, (view) => view.setInt8(0, Number(value)));
+    else if (type === 'I') out.number(4, (view) => view.setInt32(0, Number(value), true));
     else if (type === 'L') out.number(8, (view) => view.setBigInt64(0, BigInt(value), true));
     else out.number(8, (view) => view.setFloat64(0, Number(value), true));
   } else {
-    const size = type === 'f' ? 4 : 8;
+    const size = type === 'c' ? 1 : type === 'f' ? 4 : 8;
     const view = new DataView(new ArrayBuffer(size * value.length));
     value.forEach((one, i) => {
-      if (type === 'f') view.setFloat32(size * i, one, true);
+      if (type === 'c') view.setUint8(i, one);
+      else if (type === 'f') view.setFloat32(size * i, one, true);
       else if (type === 'l') view.setBigInt64(size * i, BigInt(one), true);
       else view.setFloat64(size * i, one, true);
     });

@@ -5,7 +5,7 @@ const HEADER_BYTES = 27;
 /** First version with 64-bit places of nodes. */
 const WIDE_VERSION = 7500;
 
-const ITEM_BYTES: Readonly<Record<string, number>> = { f: 4, d: 8, l: 8, i: 4, b: 1 };
+const ITEM_BYTES: Readonly<Record<string, number>> = { f: 4, d: 8, l: 8, i: 4, b: 1, c: 1 };
 
 const utf8 = new TextDecoder();
 
@@ -83,6 +83,9 @@ class BinaryReader {
       case 'B':
         this.at += 1;
         return this.view.getUint8(from);
+      case 'Z':
+        this.at += 1;
+        return this.view.getInt8(from);
       case 'I':
         this.at += 4;
         return this.view.getInt32(from, true);
