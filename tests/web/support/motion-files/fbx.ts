@@ -5,7 +5,8 @@ import { aboutAxis, conjugate, multiply, type Quat } from '../../../../web/motio
 import { X_AXIS, Y_AXIS, Z_AXIS, type Vec3 } from '../../../../web/motion/math/vec3';
 
 /** A value with its FBX type. */
-export type Value = ['I' | 'L' | 'D' | 'S', number | bigint | string] | ['l' | 'f' | 'd', readonly number[]];
+export type Value =
+  ['I' | 'L' | 'D' | 'S' | 'Z', number | bigint | string] | ['l' | 'f' | 'd' | 'c', readonly number[]];
 
 export interface Node {
   readonly name: string;

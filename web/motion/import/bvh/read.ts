@@ -1,4 +1,4 @@
-import { readPoses } from './poses';
+import { includesOffsets, readPoses } from './poses';
 import { parseBvhText } from './text';
 import { pickDancer } from '../../retarget/dancers';
 import { frameRate } from '../../retarget/frame-rate';
@@ -13,6 +13,7 @@ import { type MotionSource, restOf } from '../../retarget/source';
 export function readBvh(text: string, part = 0): MotionSource {
   const file = parseBvhText(text);
   const { nodes, frameLines, frameTime, warnings, truncated } = file;
+  const included = includesOffsets(file);
   const source: MotionSource = {
     format: 'BVH',
     joints: nodes,
@@ -26,7 +27,7 @@ export function readBvh(text: string, part = 0): MotionSource {
     part: 0,
     warnings,
     truncated,
-    localPoses: (frames) => readPoses(file, frames),
+    localPoses: (frames) => readPoses(file, frames, included),
   };
   return pickDancer(source, part);
 }
