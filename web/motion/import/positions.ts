@@ -42,6 +42,12 @@ export function refuseTooFew(frames: number): void {
   );
 }
 
+/** Things of several dancers, the leader's first; else in the order of the file. */
+export function leaderFirst<T>(things: readonly T[], nameOf: (thing: T) => string): T[] {
+  const isLeader = (thing: T): number => Number(/leader|lead$/i.test(nameOf(thing)));
+  return things.toSorted((a, b) => isLeader(b) - isLeader(a));
+}
+
 /** What a reader knows about a file beside its positions. */
 export type About = Pick<MotionSource, 'format' | 'frameRate' | 'rateAssumed' | 'unit' | 'upAxis'> &
   Partial<Pick<MotionSource, 'convention' | 'parts' | 'part' | 'warnings'>>;

@@ -2,7 +2,7 @@ import { sourceOfRotations } from './amass';
 import { changesLengths } from './bone-lengths';
 import { LANDMARK_COUNTS, landmarksIn } from './landmarks';
 import { sourceOfPoints } from '../keypoints';
-import { bodyOf, JOINT_COUNTS, refuseTooLong } from '../positions';
+import { bodyOf, JOINT_COUNTS, leaderFirst, refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { type DamageError, type NpzArray, openNpy, type StoredArray, unzipArrays } from '../../../common/npz';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
@@ -126,7 +126,7 @@ function dancersIn(arrays: Archive): string[] {
     .filter(([name]) => !hasPlaces || !OF_ROTATIONS.test(name))
     .filter(([, array]) => isOfNumbers(array) && jointShape(array))
     .map(([name]) => name);
-  return names.sort((a, b) => Number(/leader|lead$/i.test(b)) - Number(/leader|lead$/i.test(a)));
+  return leaderFirst(names, (name) => name);
 }
 
 /** The frame rate that the archive states, or the usual one. */

@@ -1,6 +1,6 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { refuseTooLong } from '../positions';
+import { leaderFirst, refuseTooLong } from '../positions';
 import { isOfMotive, readMotive } from './motive';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
@@ -54,6 +54,18 @@ function columnsOf(titles: readonly string[]): Column[] {
     const [, dancer = '', joint = '', axis = ''] = match ?? [];
     return match ? [{ dancer, joint, axis: 'xyz'.indexOf(axis.toLowerCase()), column }] : [];
   });
+}
+
+const isSame = (a: string, b: string): boolean => a.toLowerCase() === b.toLowerCase();
+
+/** The dancers that the columns name, each as in its first column. */
+function dancersOf(columns: readonly Column[]): string[] {
+  const found = new Map<string, string>();
+  for (const { dancer } of columns) {
+    const key = dancer.toLowerCase();
+    found.set(key, found.get(key) ?? dancer);
+  }
+  return leaderFirst([...found.values()], (name) => name);
 }
 
 /** Joints under their names; the 22 keep the parents that they have in their own skeleton. */
@@ -121,9 +133,9 @@ export function readCsv(text: string, part: number): MotionSource {
   const titles = (rows[0] ?? '').split(separator).map(unquoted);
   if (titles.length > MAX_COLUMNS) throw invalid(`it has ${titles.length} columns`);
   const columns = columnsOf(titles);
-  const dancers = [...new Set(columns.map(({ dancer }) => dancer))];
+  const dancers = dancersOf(columns);
   const at = part < dancers.length ? part : 0;
-  const mine = columns.filter(({ dancer }) => dancer === dancers[at]);
+  const mine = columns.filter(({ dancer }) => isSame(dancer, dancers[at]!));
   const whole = [...new Set(mine.map(({ joint }) => joint))].filter(
     (joint) => new Set(mine.filter((one) => one.joint === joint).map(({ axis }) => axis)).size === 3,
   );

@@ -1,5 +1,5 @@
 import { sourceOfPoints } from '../keypoints';
-import { refuseTooLong, SMPL_JOINTS } from '../positions';
+import { leaderFirst, refuseTooLong, SMPL_JOINTS } from '../positions';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
@@ -74,9 +74,10 @@ export function readJsonMotion(text: string, part: number): MotionSource {
   const { fps, joints: names, parents, positions } = json as Record<string, unknown>;
   if (positions === null || typeof positions !== 'object') throw invalid('it has no "positions"');
   const dancers = isList(positions) ? [['dancer', positions] as const] : Object.entries(positions);
-  const lists = dancers
-    .filter((entry): entry is [string, unknown[]] => isList(entry[1]))
-    .sort(([a], [b]) => Number(b === 'leader') - Number(a === 'leader'));
+  const lists = leaderFirst(
+    dancers.filter((entry): entry is [string, unknown[]] => isList(entry[1])),
+    ([name]) => name,
+  );
   const at = part < lists.length ? part : 0;
   const frames = lists[at]?.[1];
   if (!frames) throw invalid('its "positions" hold no dancer');
