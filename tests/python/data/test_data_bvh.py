@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +23,7 @@ from training.loop.options import read_duets_to_train
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
 
+ROOT = Path(__file__).parents[3]
 TRUNK = ("pelvis", "spine1", "spine2", "spine3")
 LIMBS = [JOINTS.index(name) for name in JOINTS if name not in TRUNK]
 
@@ -116,9 +119,17 @@ def test_units_by_the_size_of_a_person() -> None:
     assert find_unit(1.4) == 1.0
     assert find_unit(150.0) == 0.01
     assert find_unit(57.0) == 0.0254
-    assert 7.0 * find_unit(7.0) == pytest.approx(1.45)
+    assert find_unit(14.0) == 0.1
+    assert 4.0 * find_unit(4.0) == pytest.approx(1.45)
     with pytest.raises(ValueError, match="no size"):
         find_unit(0.0)
+
+
+def test_units_are_those_that_the_page_finds() -> None:
+    sizes = [float(size) for size in np.geomspace(0.05, 5000, 300)]
+    node = ["node", str(ROOT / "tests/python/support/units.mjs"), *map(repr, sizes)]
+    page = json.loads(subprocess.run(node, cwd=ROOT, check=True, capture_output=True, text=True).stdout)
+    np.testing.assert_allclose([find_unit(size) for size in sizes], page)
 
 
 def test_folder_of_pairs_keeps_the_distance_of_partners(tmp_path: Path) -> None:

@@ -27,13 +27,17 @@ _MIN_FOOT_LENGTH = 0.04  # multiple of the body's size; a shorter foot is no foo
 
 _UNITS = {
     "metres": 1.0,
+    # The unit of MakeHuman.
+    "decimetres": 0.1,
     "centimetres": 0.01,
     "inches": 0.0254,
     "millimetres": 0.001,
     # The CMU library's own skeletons: 1 / 0.45 inch.
     "CMU units": 0.0254 / 0.45,
 }
-_ADULT_SIZE = 1.45  # metres: leg plus trunk plus neck
+# Leg plus trunk plus neck of an adult, and the middle and the ends of the accepted range, metres.
+_ADULT_SIZE, _MIDDLE_SIZE = 1.45, 1.18
+_MIN_SIZE, _MAX_SIZE = 0.7, 2.0
 
 # By the axis of the file that points up: the rotation (3, 3) from the file's axes to y up.
 _UPS: dict[str, np.ndarray] = {
@@ -124,15 +128,15 @@ def find_up(upright: np.ndarray) -> str:
 
 
 def find_unit(size: float) -> float:
-    """Metres per unit of a file: the usual unit in which the body is nearest to an adult's size.
+    """Metres per unit of a file: the usual unit in which a body is nearest to the middle of a person's sizes, by ratio.
 
-    size: of the body, in the file's unit. A body that is outside an adult's range in all of them is scaled to an
-    adult's size. Raises ValueError for size 0.
+    size: of the body, in the file's unit. A body that is no person in any of them is scaled to an adult's size. Raises
+    ValueError for size 0.
     """
     if not size > 0:
         raise ValueError("the joints all lie in one place: the skeleton has no size")
-    metres = min(_UNITS.values(), key=lambda unit: abs(np.log(size * unit / _ADULT_SIZE)))
-    return metres if 0.75 <= size * metres <= 2.2 else _ADULT_SIZE / size
+    metres = min(_UNITS.values(), key=lambda unit: abs(np.log(size * unit / _MIDDLE_SIZE)))
+    return metres if _MIN_SIZE <= size * metres <= _MAX_SIZE else _ADULT_SIZE / size
 
 
 def _along(line: list[np.ndarray], share: float) -> np.ndarray:
