@@ -110,7 +110,7 @@ def test_frame_times_mean_usual_rates(written: str, fps: float) -> None:
 )
 def test_channels_that_are_not_as_stated_are_named(tmp_path: Path, channels: str, problem: str) -> None:
     path = tmp_path / "odd.bvh"
-    path.write_text(f"HIERARCHY ROOT hip {{ OFFSET 0 0 0 CHANNELS {channels} }} MOTION")
+    path.write_text(f"HIERARCHY ROOT hip {{ OFFSET 0 0 0 CHANNELS {channels} }}\nMOTION")
     with pytest.raises(ValueError, match=rf"odd\.bvh: {problem}"):
         parse_bvh(path)
 
@@ -223,6 +223,15 @@ def _with_rest_pose(text: str, instead: bool = False) -> str:
     return "\n".join(
         [head.replace(f"Frames: {count}", f"Frames: {count + 1}") + time + first, pose, *rest, ""]
     )
+
+
+def test_motion_begins_at_a_line_of_that_word_alone(tmp_path: Path, dancer: MadeDancer) -> None:
+    plain = write_bvh(tmp_path / "plain.bvh", dancer, "own", unit=1.0)
+    text = plain.read_text()
+    odd = tmp_path / "odd.bvh"
+    odd.write_text(text.replace("Hips", "MOTION_root", 1).replace("\nMOTION\n", "\n\tMotion \n"))
+    assert parse_bvh(odd).nodes[0].name == "MOTION_root"
+    np.testing.assert_array_equal(parse_bvh(odd).values, parse_bvh(plain).values)
 
 
 def test_broken_files_are_named(tmp_path: Path, dancer: MadeDancer) -> None:

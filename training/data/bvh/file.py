@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,8 @@ _CHANNELS = ("xposition", "yposition", "zposition", "xrotation", "yrotation", "z
 _MAX_NODES = 1000
 _MAX_VALUES = 10_000_000
 _MAX_VALUE = 1e7
+# As on the page, the word alone: joints may have it in their names.
+_MOTION_LINE = re.compile(r"^[ \t]*MOTION[ \t]*$", re.IGNORECASE | re.MULTILINE)
 FRAME_RATES = (5.0, 1000.0)
 """Least and greatest frames per second of a recording of a dance."""
 _USUAL_RATES = (
@@ -104,13 +107,13 @@ def parse_bvh(path: Path | str) -> BvhFile:
     """Reads a BVH file. Raises ValueError, naming the file, when it is no complete BVH file of one skeleton."""
     path = Path(path)
     text = path.read_text(encoding="utf-8-sig", errors="replace")
-    skeleton, found, motion = text.partition("MOTION")
+    skeleton, *motion = _MOTION_LINE.split(text, maxsplit=1)
     words = skeleton.replace("{", " { ").replace("}", " } ").split()
-    if not found or not words or words[0].upper() != "HIERARCHY":
+    if not motion or not words or words[0].upper() != "HIERARCHY":
         raise ValueError(f"{path}: not a BVH file: it must begin with HIERARCHY and hold MOTION")
     try:
         nodes = _read_hierarchy(words, path)
-        lines = [line.strip() for line in motion.splitlines() if line.strip()]
+        lines = [line.strip() for line in motion[0].splitlines() if line.strip()]
         frames = int(lines[0].split()[-1])
         if frames < 1:
             raise ValueError(f"it states {frames} frames")
