@@ -100,8 +100,60 @@ describe('accessors', () => {
     );
   });
 
-  test('sparse ones are refused', () => {
-    const sparse = { componentType: 5121, count: 2, sparse: { count: 1 } };
-    expect(() => values(Uint8Array.of(9, 9, 1, 2), sparse)).toThrow('the values number 0 are sparse');
+  test('without bytes of their own all are zero', () => {
+    const none = { bufferView: undefined, type: 'VEC3', componentType: 5126, count: 2 };
+    expect(values(Uint8Array.of(9, 9, 1, 2), none)).toEqual([0, 0, 0, 0, 0, 0]);
+  });
+
+  test('so many without bytes that they would fill the memory are refused', () => {
+    const none = { bufferView: undefined, type: 'VEC4', componentType: 5126, count: 1e8 };
+    expect(() => values(Uint8Array.of(9, 9, 1, 2), none)).toThrow('more than 10 million zeros');
+  });
+
+  describe('sparse', () => {
+    const bytes = Uint8Array.of(9, 9, 1, 2, 3, 1, 2, 70, 80);
+    const sparse = (count: number, inside: object = {}): object => ({
+      count,
+      indices: { bufferView: 0, byteOffset: 3, componentType: 5121 },
+      values: { bufferView: 0, byteOffset: 5 },
+      ...inside,
+    });
+
+    test('on values, and on zeros', () => {
+      const bytewise = { componentType: 5121, count: 3, sparse: sparse(2) };
+      expect(values(bytes, bytewise)).toEqual([1, 70, 80]);
+      expect(values(bytes, { ...bytewise, bufferView: undefined })).toEqual([0, 70, 80]);
+    });
+
+    test('with places that are not there are refused', () => {
+      expect(() => values(bytes, { componentType: 5121, count: 2, sparse: sparse(2) })).toThrow(
+        'the values number 0 have places beyond their end',
+      );
+      const beyond = sparse(2, { values: { bufferView: 1 } });
+      expect(() => values(bytes, { componentType: 5121, count: 3, sparse: beyond })).toThrow(
+        'the values number 0 are missing',
+      );
+    });
+  });
+});
+
+describe('buffers within the file', () => {
+  const buffer = (uri: string): number[] => {
+    const json = { asset: { version: '2.0' }, buffers: [{ byteLength: 4, uri }] };
+    const bytes = new TextEncoder().encode(JSON.stringify(json));
+    return [...readContainer({ name: 'a.gltf', bytes }, []).buffers[0]!];
+  };
+
+  test.each([
+    ['base64', 'data:application/octet-stream;base64,ACz/QQ=='],
+    ['base64 in capitals', 'data:;BASE64,ACz/QQ=='],
+    ['percent-encoding', 'data:application/octet-stream,%00%2C%ffA'],
+    ['percent-encoding, a comma as it is', 'data:,%00,%FFA'],
+  ])('in %s', (_, uri) => {
+    expect(buffer(uri)).toEqual([0, 0x2c, 255, 0x41]);
+  });
+
+  test('in broken base64 are refused', () => {
+    expect(() => buffer('data:;base64,A')).toThrow('a buffer within it is not in base64');
   });
 });

@@ -35,7 +35,17 @@ const schema = v.object({
         normalized: v.optional(v.boolean(), false),
         count,
         type: v.string(),
-        sparse: v.optional(v.unknown()),
+        sparse: v.optional(
+          v.object({
+            count,
+            indices: v.object({
+              bufferView: index,
+              byteOffset: v.optional(count, 0),
+              componentType: v.number(),
+            }),
+            values: v.object({ bufferView: index, byteOffset: v.optional(count, 0) }),
+          }),
+        ),
       }),
     ),
     [],
@@ -111,12 +121,15 @@ function chunksOf(bytes: Uint8Array): { text: string; binary: Uint8Array | null 
   return { text, binary };
 }
 
-/** The bytes of a data: address. */
+/** The bytes of a data: address, in base64 or percent-encoded. */
 function dataBytes(uri: string): Uint8Array {
-  const [head = '', body = ''] = uri.split(',', 2);
-  if (!head.endsWith(';base64')) throw damagedGltf('a buffer within it is not in base64');
+  const comma = uri.indexOf(',');
+  const [head, body] = [uri.slice(0, comma), uri.slice(comma + 1)];
+  const asText = (): string =>
+    body.replaceAll(/%([0-9a-f]{2})/gi, (_, byte: string) => String.fromCharCode(parseInt(byte, 16)));
   try {
-    return Uint8Array.from(atob(body), (character) => character.charCodeAt(0));
+    const text = /;base64$/i.test(head) ? atob(body) : asText();
+    return Uint8Array.from(text, (character) => character.charCodeAt(0));
   } catch (cause) {
     throw damagedGltf('a buffer within it is not in base64', cause);
   }
