@@ -43,8 +43,8 @@ class Duet:
     """Two dancers in one world: metres, y up, right-handed, 30 fps, floor at 0, SMPL-22 joint order.
 
     leader, reactor: (T, 22, 3) float32, frame by frame in sync. song: an audio file in sync with frame 0, if
-    any. Raises ValueError when a shape, type or length is wrong a coordinate is not finite,
-    or a joint is where no dancer's joint can be.
+    any. Raises ValueError when a shape, type or length is wrong, a coordinate is not finite, or a joint is where no
+    dancer's joint can be.
     """
 
     name: str

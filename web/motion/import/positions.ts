@@ -10,7 +10,7 @@ export interface Positions {
 }
 
 /** Largest number of values that is read: 15 minutes of 60 joints at 60 frames per second. */
-export const MAX_VALUES = 1e7;
+const MAX_VALUES = 1e7;
 
 /** The 22 joints by their own names. */
 export const SMPL_JOINTS: readonly SourceJoint[] = SMPL22.map((name, joint) => ({
@@ -28,7 +28,7 @@ export function refuseTooLong(frames: number, width: number): void {
   throw new AppError(
     'too-long',
     `The file has ${frames} frames of ${width} values; up to ${MAX_VALUES / 1e6} million values are read.`,
-    'Export a shorter part of the dance, or fewer frames per second.',
+    'Export a shorter part of the dance, fewer frames per second, or the body without fingers.',
   );
 }
 

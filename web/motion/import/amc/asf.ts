@@ -4,7 +4,7 @@ import { type Vec3, X_AXIS, Y_AXIS, Z_AXIS, ZERO } from '../../math/vec3';
 
 /** Largest number of bones. */
 const MAX_BONES = 500;
-/** Length of a unit in metres is an inch by this factor of the file, degrees a full turn has. */
+/** Metres in an inch: a unit of an ASF is an inch over the `length` that the file states. */
 const INCH = 0.0254;
 
 /** A bone of an ASF skeleton: its joint is where it begins. */

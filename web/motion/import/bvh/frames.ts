@@ -1,5 +1,6 @@
-import type { BvhNode } from './hierarchy';
+import { type BvhNode, truncated } from './hierarchy';
 import { HINT_EXPORT_AGAIN, numberProblem, numberHint } from './number';
+import { refuseTooLong } from '../positions';
 import { AppError } from '../../../common/error';
 
 /** The frames of a file, checked. */
@@ -9,14 +10,6 @@ interface ReadFrames {
   readonly warnings: readonly string[];
   /** Whether the file ends before its last frame is complete; `frameLines` are then the complete ones. */
   readonly truncated: boolean;
-}
-
-/** Largest number of values: 15 minutes of 60 joints at 60 frames per second. */
-const MAX_VALUES = 1e7;
-
-/** The error of a file that ends too early, as after an interrupted download. */
-function truncated(message: string): AppError {
-  return new AppError('truncated', message, 'The file is incomplete: download, copy or export it again.');
 }
 
 /** Index of the last line that is not blank. */
@@ -41,14 +34,7 @@ export function readFrames(
   const columns = nodes.flatMap(({ name, channels }) => channels.map((channel) => `${channel} of ${name}`));
   const frameLines: string[] = [];
   const last = lastLine(lines);
-  const frames = Math.min(stated, last + 1 - first);
-  if (frames * columns.length > MAX_VALUES) {
-    throw new AppError(
-      'too-long',
-      `The file has ${frames} frames of ${columns.length} values; up to ${MAX_VALUES / 1e6} million values are read.`,
-      'Export a shorter part of the dance, fewer frames per second, or the body without fingers.',
-    );
-  }
+  refuseTooLong(Math.min(stated, last + 1 - first), columns.length);
   let extra = 0;
   for (let line = first; line <= last; line++) {
     const text = lines[line]!.trim();

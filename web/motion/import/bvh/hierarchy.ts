@@ -63,12 +63,9 @@ function tooManyNodes(line: number): AppError {
   );
 }
 
-function truncated(tokens: TokenReader): AppError {
-  return new AppError(
-    'truncated',
-    `The file ends at line ${tokens.line}, in the middle of the skeleton.`,
-    'The file is incomplete: copy or export it again.',
-  );
+/** The error of a file that ends too early, as after an interrupted download. */
+export function truncated(message: string): AppError {
+  return new AppError('truncated', message, 'The file is incomplete: download, copy or export it again.');
 }
 
 /**
@@ -82,7 +79,7 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
   const nodes: BvhNode[] = [];
   const invalid = (what: string): AppError =>
     tokens.peek() === undefined && end === lines.length
-      ? truncated(tokens)
+      ? truncated(`The file ends at line ${tokens.line}, in the middle of the skeleton.`)
       : new AppError('bad-hierarchy', `Line ${tokens.line}: ${what}.`, HINT_EXPORT_AGAIN);
 
   const numbers = (count: number, what: string): number[] =>

@@ -1,6 +1,6 @@
 import { AppError } from '../../../common/error';
 import { type Vec3, writeVec } from '../../math/vec3';
-import { MAX_VALUES } from '../positions';
+import { refuseTooLong } from '../positions';
 
 const BLOCK = 512;
 /** Marks of the processors whose numbers a file has. */
@@ -172,13 +172,7 @@ function readMarkers(bytes: Uint8Array, start: number): C3d {
   const there = row > 0 && data > 0 ? Math.floor((bytes.length - data) / row) : 0;
   const frames = Math.min(stated ?? there, there);
   if (points === 0 || labels.length === 0 || !(frames > 0)) throw damagedC3d('it holds no markers');
-  if (frames * points * 3 > MAX_VALUES) {
-    throw new AppError(
-      'too-long',
-      `The file has ${frames} frames of ${points} markers; up to ${MAX_VALUES / 1e6} million values are read.`,
-      'Export a shorter part of the dance.',
-    );
-  }
+  refuseTooLong(frames, points * 3);
   const places = placesOf(numbers, head, frames);
   return {
     labels: Array.from({ length: points }, (_, point) => labels[point] ?? `*${point}`),

@@ -1,4 +1,5 @@
 import type { Bezier, Key } from './file';
+import { keyBefore } from '../../math/key-before';
 import { IDENTITY, type Quat, slerp } from '../../math/quat';
 import { type Vec3, ZERO } from '../../math/vec3';
 
@@ -23,15 +24,11 @@ function eased([x1, y1, x2, y2]: Bezier, share: number): number {
 export function poseAt(keys: readonly Key[] | undefined, frame: number): { move: Vec3; turn: Quat } {
   const [first] = keys ?? [];
   if (!keys || !first) return { move: ZERO, turn: IDENTITY };
-  let [low, high] = [0, keys.length - 1];
+  const last = keys.at(-1)!;
   if (frame <= first.frame) return first;
-  if (frame >= keys[high]!.frame) return keys[high]!;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (keys[middle]!.frame <= frame) low = middle;
-    else high = middle;
-  }
-  const [a, b] = [keys[low]!, keys[high]!];
+  if (frame >= last.frame) return last;
+  const key = keyBefore(keys, frame, (one) => one.frame);
+  const [a, b] = [keys[key]!, keys[key + 1]!];
   const share = (frame - a.frame) / (b.frame - a.frame);
   const axis = (i: 0 | 1 | 2): number => a.move[i] + (b.move[i] - a.move[i]) * eased(b.curves[i], share);
   return { move: [axis(0), axis(1), axis(2)], turn: slerp(a.turn, b.turn, eased(b.curves[3], share)) };
