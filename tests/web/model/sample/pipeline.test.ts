@@ -550,12 +550,12 @@ describe('Pipeline', () => {
     ['another frame rate', () => ({ leader: { ...request(4).leader, fps: 60 } }), /60 frames per second/],
     [
       'a position that is not a number',
-      () => ({ leader: { fps: 30, frames: 4, positions: new Float32Array(264).fill(NaN) } }),
+      () => ({ ...request(4), leader: { fps: 30, frames: 4, positions: new Float32Array(264).fill(NaN) } }),
       /not a number/,
     ],
     [
       'a body without size',
-      () => ({ leader: { fps: 30, frames: 4, positions: new Float32Array(264) } }),
+      () => ({ ...request(4), leader: { fps: 30, frames: 4, positions: new Float32Array(264) } }),
       /no body height/,
     ],
     ['other features', () => ({ music: { features: new Float32Array(7), frames: 1 } }), /54 features/],
