@@ -5,7 +5,14 @@
 import { proxy, releaseProxy, type Remote, transfer, wrap } from 'comlink';
 import { AppError } from './error';
 import { explainedByVersion, pagePartMissing } from './page-part';
-import type { Outcome, Reporter, TaskContext, TaskRunner, Tasks } from './serve-tasks';
+import {
+  type Outcome,
+  type Reporter,
+  type TaskContext,
+  type TaskRunner,
+  type Tasks,
+  transferablesIn,
+} from './serve-tasks';
 import { type Timeouts, Watchdog } from './watchdog';
 
 type InputOf<T extends Tasks[string]> = Parameters<T>[0];
@@ -38,6 +45,11 @@ function outOfMemory(): AppError {
   );
 }
 
+/** Frees the pictures of what came too late: until they are collected as garbage they would keep their memory. */
+function closePictures(value: unknown): void {
+  for (const part of transferablesIn(value)) if ('close' in part) part.close();
+}
+
 /**
  * Hands the reports of a call on until it ends. The port that they come through may outlive the call, so it holds
  * nothing of it.
@@ -45,6 +57,7 @@ function outOfMemory(): AppError {
 class Reports {
   #onReport: ((report: unknown) => unknown) | undefined;
   readonly #resetWatchdog: () => void;
+  #ended = false;
 
   constructor(resetWatchdog: () => void, onReport: ((report: unknown) => unknown) | undefined) {
     this.#resetWatchdog = resetWatchdog;
@@ -53,10 +66,16 @@ class Reports {
 
   readonly take: Reporter = async (report) => {
     this.#resetWatchdog();
-    await this.#onReport?.(report);
+    if (this.#onReport) await this.#onReport(report);
+    else closePictures(report);
   };
 
+  get ended(): boolean {
+    return this.#ended;
+  }
+
   end(): void {
+    this.#ended = true;
     this.#onReport = undefined;
   }
 }
@@ -136,7 +155,10 @@ export class WorkerConnection<T extends Tasks> {
         signal?.addEventListener('abort', cancel);
         const call = this.#remote.call(id, name, transfer(input, [...transfers] as ArrayBuffer[]), report);
         this.#watchUntil(call);
-        call.then(resolve, reject);
+        call.then((late) => {
+          if (reports.ended) closePictures(late);
+          else resolve(late);
+        }, reject);
       });
       if (outcome.kind === 'done') return outcome.output as OutputOf<T[K]>;
       throw await explainedByVersion(this.#errorOf(outcome));

@@ -8,11 +8,14 @@ import { AppError } from './error';
 export interface TaskContext<Report> {
   /** Aborted when the page cancels this call. */
   readonly signal: AbortSignal;
-  /** Sends something to the page before the task ends, its buffers transferred; resolves when the page has taken it. */
+  /**
+   * Sends something to the page before the task ends, its buffers and pictures transferred; resolves when the page has
+   * taken it.
+   */
   report(this: void, report: Report): Promise<void>;
 }
 
-/** What a worker does on a call. It gives its output away: all buffers in it are transferred to the page. */
+/** What a worker does on a call. It gives its output away: all buffers and pictures in it are transferred to the page. */
 export type Task<Input, Output, Report = never> = (
   input: Input,
   context: TaskContext<Report>,
@@ -86,14 +89,26 @@ function failure(error: unknown, signal: AbortSignal): Outcome {
   return { kind: 'crashed', reason: error instanceof Error ? error.message : String(error) };
 }
 
-/** Marks all buffers of a value of plain objects, arrays and typed arrays to be transferred with it. */
+/** Marks all that can be transferred of a value to be transferred with it. */
 function handOver<T>(value: T): T {
-  const buffers = new Set<ArrayBuffer>();
+  const parts = transferablesIn(value);
+  return parts.size > 0 ? transfer(value, [...parts]) : value;
+}
+
+/** The buffers and pictures in a value of plain objects, arrays, typed arrays and pictures. */
+export function transferablesIn(value: unknown): Set<ArrayBuffer | ImageBitmap> {
+  const found = new Set<ArrayBuffer | ImageBitmap>();
   const collect = (part: unknown): void => {
     if (ArrayBuffer.isView(part)) {
-      if (part.buffer instanceof ArrayBuffer) buffers.add(part.buffer);
-    } else if (typeof part === 'object' && part !== null) Object.values(part).forEach(collect);
+      if (part.buffer instanceof ArrayBuffer) found.add(part.buffer);
+    } else if (isPicture(part)) found.add(part);
+    else if (typeof part === 'object' && part !== null) Object.values(part).forEach(collect);
   };
   collect(value);
-  return buffers.size > 0 ? transfer(value, [...buffers]) : value;
+  return found;
+}
+
+/** Node has no pictures. */
+function isPicture(part: unknown): part is ImageBitmap {
+  return 'ImageBitmap' in globalThis && part instanceof ImageBitmap;
 }

@@ -1,4 +1,4 @@
-import { serve, type TaskContext } from '../../../web/common/serve-tasks';
+import { serve, type TaskContext, type Tasks } from '../../../web/common/serve-tasks';
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { afterEach, describe, expect, it, vi } from 'vitest';
@@ -45,6 +45,29 @@ const tasks = {
 };
 type Tested = typeof tasks;
 
+/** A picture as Node has it: a port can be transferred and closed too, and the one at its other end hears of that. */
+function picture(): { image: ImageBitmap; closed: Promise<unknown> } {
+  const { port1, port2 } = new MessageChannel();
+  const closed = new Promise((resolve) => port2.addEventListener('close', resolve));
+  return { image: port1 as unknown as ImageBitmap, closed };
+}
+
+/** Reports a picture at once and another when the call is cancelled, and ends with one more. */
+function pictures(drawn: ReturnType<typeof picture>[]) {
+  return {
+    async draw(
+      _: object,
+      { signal, report }: TaskContext<{ image: ImageBitmap }>,
+    ): Promise<{ image: ImageBitmap }> {
+      const [first, second, last] = drawn;
+      void report({ image: first!.image });
+      await new Promise((resolve) => signal.addEventListener('abort', resolve));
+      void report({ image: second!.image });
+      return { image: last!.image };
+    },
+  };
+}
+
 /** A worker on this thread. */
 class LocalWorker extends EventTarget {
   readonly #channel = new MessageChannel();
@@ -52,9 +75,9 @@ class LocalWorker extends EventTarget {
   /** Neither hears nor says anything, like a worker in an endless loop or one that was killed. */
   silent = false;
 
-  constructor() {
+  constructor(served: Tasks = tasks) {
     super();
-    serve(tasks, this.#channel.port2);
+    serve(served, this.#channel.port2);
     this.#channel.port1.addEventListener('message', ({ data }: MessageEvent<unknown>) => {
       if (!this.silent) this.dispatchEvent(new MessageEvent('message', { data }));
     });
@@ -80,6 +103,7 @@ const fail = (worker: Worker, message: string): void => {
 
 afterEach(() => {
   for (const worker of opened.splice(0)) worker.terminate();
+  vi.unstubAllGlobals();
   delete seen.signal;
   seen.buffers.length = 0;
 });
@@ -133,6 +157,28 @@ describe('a connection to a worker', () => {
     expect(seen.buffers.map((buffer) => buffer.byteLength)).toEqual([0, 0]);
     await connection.call('double', { values }, { transfers: [values.buffer] });
     expect(values).toHaveLength(0);
+  });
+
+  it('transfers pictures too, and closes those that come after the call was cancelled', async () => {
+    vi.stubGlobal('ImageBitmap', MessagePort);
+    const drawn = [picture(), picture(), picture()];
+    const worker = new LocalWorker(pictures(drawn)) as unknown as Worker;
+    const connection = new WorkerConnection<ReturnType<typeof pictures>>(worker);
+    const controller = new AbortController();
+    const taken: ImageBitmap[] = [];
+    const drawing = connection.call(
+      'draw',
+      {},
+      { signal: controller.signal, onReport: ({ image }) => taken.push(image) },
+    );
+    await vi.waitFor(() => expect(taken).toHaveLength(1));
+    controller.abort();
+    await expect(drawing).rejects.toBe(controller.signal.reason);
+    await Promise.all([drawn[1]!.closed, drawn[2]!.closed]);
+    expect(taken).toHaveLength(1);
+    // The first is the caller's, which closes it.
+    taken[0]!.close();
+    await drawn[0]!.closed;
   });
 
   it('rejects with the error of the task and takes further calls', async () => {
