@@ -9,7 +9,10 @@ const AUDIO_BITRATE = 160_000;
 
 type RecordPlan = Extract<VideoPlan, { way: 'record' }>;
 
-/** Records a video in real time, for browsers without WebCodecs. Frames that are drawn too slowly are left out. */
+/**
+ * Records a video in real time, for browsers without WebCodecs. Frames that are drawn too slowly are left out.
+ * @throws {AppError} `sound-failed`; what the drawing throws; the signal's reason; an error where the recorder fails
+ */
 export async function recordVideo(
   source: VideoSource,
   plan: RecordPlan,
@@ -22,7 +25,37 @@ export async function recordVideo(
   };
   signal.throwIfAborted();
   const stream = source.canvas.captureStream(fps);
-  const song = soundtrack && playInto(stream, soundtrack.sound, soundtrack.start, frames / fps);
+  let context: AudioContext | null = null;
+  let recorded: Blob;
+  try {
+    let song: Song | null = null;
+    if (soundtrack) {
+      const { sound, start } = soundtrack;
+      context = new AudioContext({ sampleRate: sound.rate });
+      song = songInto(stream, context, sound, start, frames / fps);
+    }
+    recorded = await record(stream, plan, async (early) => {
+      const ended = AbortSignal.any([signal, early]);
+      await song?.start();
+      await drawInTime(source, ended, onProgress);
+    });
+  } finally {
+    for (const track of stream.getTracks()) track.stop();
+    await context?.close();
+  }
+  // Nobody has to wait for the recording again because it could not be copied.
+  return withDuration(recorded, plan).catch(() => recorded);
+}
+
+/**
+ * Records a stream while something is drawn.
+ * @param draw its signal is aborted when the recorder ends before it
+ */
+async function record(
+  stream: MediaStream,
+  plan: RecordPlan,
+  draw: (early: AbortSignal) => Promise<void>,
+): Promise<Blob> {
   const recorder = new MediaRecorder(stream, {
     mimeType: plan.type,
     videoBitsPerSecond: VIDEO_BITRATE,
@@ -30,38 +63,46 @@ export async function recordVideo(
   });
   const parts: Blob[] = [];
   recorder.ondataavailable = ({ data }) => parts.push(data);
+  const early = new AbortController();
   const stopped = new Promise<void>((resolve, reject) => {
+    const error = new Error('The recorder stopped.');
     recorder.onstop = () => {
       resolve();
+      early.abort(error);
     };
     recorder.onerror = () => {
-      reject(new Error('The recorder stopped.'));
+      reject(error);
+      early.abort(error);
     };
   });
   // The await below handles an error; until then it must not count as unhandled.
   stopped.catch(() => undefined);
   try {
     recorder.start(1000);
-    await song?.start();
-    const begin = performance.now();
-    for (let frame = 0; frame < frames;) {
-      signal.throwIfAborted();
-      await source.draw(frame);
-      onProgress({ frame: frame + 1, frames });
-      const next = Math.max(frame + 1, Math.floor(((performance.now() - begin) / 1000) * fps));
-      await pause((next / fps) * 1000 - (performance.now() - begin));
-      frame = next;
-    }
+    await draw(early.signal);
     recorder.stop();
     await stopped;
   } finally {
     if (recorder.state !== 'inactive') recorder.stop();
-    for (const track of stream.getTracks()) track.stop();
-    await song?.stop();
   }
-  const recorded = new Blob(parts, { type: `video/${plan.container}` });
-  // Nobody has to wait for the recording again because it could not be copied.
-  return withDuration(recorded, plan).catch(() => recorded);
+  return new Blob(parts, { type: `video/${plan.container}` });
+}
+
+/** Draws the frames when they are due; those whose time has passed are left out. */
+async function drawInTime(
+  { fps, frames, draw }: VideoSource,
+  signal: AbortSignal,
+  onProgress: VideoOptions['onProgress'],
+): Promise<void> {
+  const begin = performance.now();
+  for (let frame = 0; frame < frames;) {
+    signal.throwIfAborted();
+    await draw(frame);
+    onProgress({ frame: frame + 1, frames });
+    const next = Math.max(frame + 1, Math.floor(((performance.now() - begin) / 1000) * fps));
+    await pause((next / fps) * 1000 - (performance.now() - begin));
+    frame = next;
+  }
 }
 
 /** The same pictures and sound in a file that says how long it is and where to seek, which recorders leave out. */
@@ -80,9 +121,18 @@ async function withDuration(recorded: Blob, plan: RecordPlan): Promise<Blob> {
   return new Blob([target.buffer], { type: recorded.type });
 }
 
+interface Song {
+  readonly start: () => Promise<void>;
+}
+
 /** Adds the song of the whole dance to a stream, without playing it on the page. */
-function playInto(stream: MediaStream, sound: Sound, start: number, seconds: number) {
-  const context = new AudioContext({ sampleRate: sound.rate });
+function songInto(
+  stream: MediaStream,
+  context: AudioContext,
+  sound: Sound,
+  start: number,
+  seconds: number,
+): Song {
   const length = Math.round(seconds * sound.rate);
   const whole = songSamples(sound, start, 0, length);
   const buffer = context.createBuffer(sound.channels.length, length, sound.rate);
@@ -95,11 +145,10 @@ function playInto(stream: MediaStream, sound: Sound, start: number, seconds: num
   player.buffer = buffer;
   player.connect(output);
   return {
-    async start(): Promise<void> {
+    start: async () => {
       await context.resume();
       player.start();
     },
-    stop: () => context.close(),
   };
 }
 
