@@ -94,7 +94,13 @@ export async function openPictures(file: Blob, from: number): Promise<Pictures> 
   const { openVideo } = await loadPart(() => import('./frames'));
   const video = await openVideo(file);
   const pictures = video.pictures(from, Infinity);
-  let coming = await pictures.next();
+  let coming: Awaited<ReturnType<typeof pictures.next>>;
+  try {
+    coming = await pictures.next();
+  } catch (error) {
+    video.close();
+    throw error;
+  }
   return {
     width: video.width,
     height: video.height,

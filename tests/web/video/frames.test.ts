@@ -2,6 +2,7 @@ import {
   BufferTarget,
   EncodedPacket,
   EncodedVideoPacketSource,
+  Input,
   Mp4OutputFormat,
   Output,
   type OutputFormat,
@@ -9,6 +10,7 @@ import {
   WebMOutputFormat,
 } from 'mediabunny';
 import { afterEach, expect, test, vi } from 'vitest';
+import { openPictures } from '../../../web/video/client';
 import { inTime, openVideo, pictureChoice } from '../../../web/video/frames';
 
 /** Ten pictures, 10 a second, that hold nothing; those who open the file see no difference. */
@@ -48,6 +50,7 @@ function decodes(supported: boolean): void {
 afterEach(() => {
   vi.unstubAllGlobals();
   vi.useRealTimers();
+  vi.restoreAllMocks();
 });
 
 /** Pictures that are read of ten seconds, whose times vary by up to 3 ms to either side. */
@@ -148,4 +151,12 @@ test('a WebM file of which only the beginning is there is not said to lack a per
     code: 'not-a-video',
     hint: expect.stringContaining('its end may be missing') as unknown,
   });
+});
+
+test('a video whose first picture cannot be decoded is closed', async () => {
+  const closed = vi.spyOn(Input.prototype, 'dispose');
+  // A decoder that cannot be made.
+  decodes(true);
+  await expect(openPictures(await avc(), 0)).rejects.toMatchObject({ code: 'video-damaged' });
+  expect(closed).toHaveBeenCalledOnce();
 });
