@@ -61,6 +61,10 @@ export function createBodyLibrary(): BodyLibrary {
       const own = Float32Array.from(offsets);
       const body = mesh(own, build);
       bodies = [...bodies, { offsets: own, build, body }].slice(-MAX_CACHED_BODIES);
+      // The next one who asks tries again.
+      body.catch(() => {
+        bodies = bodies.filter((cached) => cached.body !== body);
+      });
       return body;
     },
     dispose() {

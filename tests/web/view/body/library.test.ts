@@ -51,4 +51,18 @@ describe('the body library', () => {
     expect(library.request(oneBone, BUILDS.leader)).not.toBe(first);
     library.dispose();
   });
+
+  it('tries again to make a body that could not be made', async () => {
+    vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+    const library = createBodyLibrary();
+    // Too large for the memory.
+    const huge = person(1e5);
+    const first = library.request(huge, BUILDS.leader);
+    expect(library.request(huge, BUILDS.leader)).toBe(first);
+    await expect(first).rejects.toThrow();
+    const again = library.request(huge, BUILDS.leader);
+    expect(again).not.toBe(first);
+    await expect(again).rejects.toThrow();
+    library.dispose();
+  });
 });
