@@ -40,6 +40,7 @@ export type ErrorCode =
   | 'no-person'
   | 'half-a-body'
   | 'camera-refused'
+  | 'camera-stopped'
   // The model, and what is asked of it.
   | 'model-missing'
   | 'manifest-invalid'

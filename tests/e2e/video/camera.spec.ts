@@ -50,6 +50,40 @@ test('a recording counts down, plays the song, and is read', async ({ page, cont
   expect(await app.read(({ leader, playback }) => [leader?.name, playback.playing])).toEqual([before, false]);
 });
 
+test('a camera that stops by itself ends the recording, and what was recorded is read', async ({
+  page,
+  context,
+}) => {
+  await context.grantPermissions(['camera']);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const dialog = page.getByRole('dialog', { name: 'Record with the camera' });
+  const unplug = (): Promise<void> =>
+    dialog.getByLabel('Picture of the camera').evaluate((video: HTMLVideoElement) => {
+      for (const track of (video.srcObject as MediaStream).getTracks()) track.stop();
+    });
+  await page.getByRole('button', { name: 'Use the camera' }).click();
+  await dialog.getByRole('button', { name: 'Record' }).click();
+  await expect(dialog.getByText('Recording, 2 of at most 120 s')).toBeVisible();
+  await unplug();
+  await expect(dialog).toBeHidden();
+  await expect(page.getByRole('status').getByText('The camera has stopped')).toBeAttached();
+  await expect(app.alert).toHaveAttribute('data-code', 'no-person', { timeout: 60_000 });
+  expect(await app.read(({ playback }) => playback.playing)).toBe(false);
+
+  await test.step('and before the recording it is a sentence', async () => {
+    await page.keyboard.press('Escape');
+    await page.getByRole('button', { name: 'Project' }).click();
+    await page.getByRole('button', { name: /^Record a leader/ }).click();
+    await dialog.getByRole('button', { name: 'Record' }).click();
+    await expect(dialog.getByText('3', { exact: true })).toBeVisible();
+    await unplug();
+    await expect(app.alert).toHaveAttribute('data-code', 'camera-stopped');
+    await expect(dialog).toBeHidden();
+  });
+});
+
 test('a camera that is refused is a sentence', async ({ page, context }) => {
   await context.clearPermissions();
   const app = new App(page);

@@ -16,7 +16,7 @@ const TYPES = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/mp4'];
  * Records a dancer with the webcam: preview, countdown, at most two minutes. The dance of the page plays from its start
  * meanwhile, with its song, if there is one.
  * @returns the video; null when the visitor closes the dialog
- * @throws {AppError} `camera-refused`
+ * @throws {AppError} `camera-refused`; `camera-stopped` where it ends before anything was recorded
  */
 export async function recordCamera(
   host: HTMLElement,
@@ -127,15 +127,30 @@ interface Recording {
   readonly cancelled: AbortSignal;
 }
 
+/**
+ * Records until the visitor has enough. A recorder that ends by itself, as when the camera is unplugged, leaves what was
+ * recorded until then.
+ */
 async function record(
   stream: MediaStream,
   { store, playback, status, done, cancelled }: Recording,
 ): Promise<File | null> {
+  if (!stream.active) throw cameraStopped();
   const type = TYPES.find((one) => MediaRecorder.isTypeSupported(one));
   const recorder = new MediaRecorder(stream, type === undefined ? {} : { mimeType: type });
   const parts: Blob[] = [];
   recorder.ondataavailable = ({ data }) => parts.push(data);
-  const stopped = new Promise((resolve) => (recorder.onstop = resolve));
+  const early = new AbortController();
+  const stopped = new Promise<void>((resolve) => {
+    recorder.onstop = () => {
+      early.abort();
+      resolve();
+    };
+  });
+  // After an error it stops, with what it has.
+  recorder.onerror = () => {
+    early.abort();
+  };
   const play = (on: boolean): void => {
     if (store.getState().playback.playing !== on) playback.togglePlay();
   };
@@ -144,19 +159,33 @@ async function record(
     playback.seek(0);
     play(true);
   }
-  const end = AbortSignal.any([done, cancelled]);
+  const end = AbortSignal.any([done, cancelled, early.signal]);
   for (let second = 0; second < MAX_SECONDS && !end.aborted; second++) {
     setText(status, `Recording, ${second} of at most ${MAX_SECONDS} s`);
     await wait(1, end);
   }
-  recorder.stop();
+  const byItself = early.signal.aborted;
+  if (recorder.state !== 'inactive') recorder.stop();
   play(false);
   await stopped;
   if (cancelled.aborted) return null;
-  // Said by the page: the dialog closes.
-  apply(store, toastShown('The recording has ended.'));
   const kind = recorder.mimeType.startsWith('video/mp4') ? 'mp4' : 'webm';
-  return new File(parts, `camera.${kind}`, { type: `video/${kind}` });
+  const file = new File(parts, `camera.${kind}`, { type: `video/${kind}` });
+  if (file.size === 0) throw cameraStopped();
+  // Said by the page: the dialog closes.
+  apply(
+    store,
+    toastShown(byItself ? 'The camera has stopped, and the recording with it.' : 'The recording has ended.'),
+  );
+  return file;
+}
+
+function cameraStopped(): AppError {
+  return new AppError(
+    'camera-stopped',
+    'The camera stopped before anything was recorded.',
+    'Check that it is connected and that this page may use it, then try again.',
+  );
 }
 
 /** Resolves after some seconds, or at once when the signal is aborted. */
