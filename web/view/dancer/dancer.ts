@@ -24,9 +24,8 @@ export class Dancer {
   private readonly currentPose = createPose();
   private readonly nextPose = createPose();
   private currentMotion: SolvedMotion | null = null;
-  /** Motion that is faded out, and how far that has come, 0 to 1. */
-  private fadingMotion: SolvedMotion | null = null;
-  private fade = 0;
+  /** Motions that are faded out, the oldest first, and how far the motion after each has taken its place, 0 to 1. */
+  private fading: { readonly motion: SolvedMotion; fade: number }[] = [];
   /** Share of its opacity that is left while it fades out, null while it stays. */
   private leaving: number | null = null;
   private visible = true;
@@ -52,12 +51,15 @@ export class Dancer {
     return this.currentMotion;
   }
 
-  /** Takes another motion, or none, at once or with a crossfade. A body for its skeleton is made in the background. */
+  /**
+   * Takes another motion, or none, at once or with a crossfade, which begins at the pose that is shown, also where that
+   * is a blend. A body for its skeleton is made in the background.
+   */
   setMotion(motion: SolvedMotion | null, crossfade = false): void {
     this.leave(null);
     if (motion === this.currentMotion) return;
-    this.fadingMotion = crossfade && motion ? this.currentMotion : null;
-    this.fade = 0;
+    if (!crossfade || !motion) this.fading = [];
+    else if (this.currentMotion) this.fading.push({ motion: this.currentMotion, fade: 0 });
     this.currentMotion = motion;
     this.updateVisibility();
     if (motion === null) return;
@@ -94,20 +96,21 @@ export class Dancer {
       if (this.leaving <= 0) this.setMotion(null);
       return true;
     }
-    if (!this.fadingMotion) return false;
-    this.fade += dt / CROSSFADE;
-    if (this.fade >= 1) this.fadingMotion = null;
+    if (this.fading.length === 0) return false;
+    for (const part of this.fading) part.fade += dt / CROSSFADE;
+    this.fading = this.fading.filter(({ fade }) => fade < 1);
     return true;
   }
 
   /** Takes the pose of the motion at a moment, with the head held level. */
   pose(seconds: number): void {
     if (this.currentMotion === null) return;
-    samplePose(this.fadingMotion ?? this.currentMotion, seconds, this.currentPose);
-    if (this.fadingMotion) {
-      samplePose(this.currentMotion, seconds, this.nextPose);
-      blendPose(this.currentPose, this.nextPose, this.fade * this.fade * (3 - 2 * this.fade));
-    }
+    const { fading, currentMotion } = this;
+    samplePose(fading[0]?.motion ?? currentMotion, seconds, this.currentPose);
+    fading.forEach(({ fade }, i) => {
+      samplePose(fading[i + 1]?.motion ?? currentMotion, seconds, this.nextPose);
+      blendPose(this.currentPose, this.nextPose, fade * fade * (3 - 2 * fade));
+    });
     this.rig.apply(this.currentPose);
     levelHead(this.rig);
   }

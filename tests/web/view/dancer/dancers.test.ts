@@ -139,6 +139,33 @@ describe('the dancers on the stage', () => {
     expect(earlierSeen()).toBe(false);
   });
 
+  it('goes on from the pose that is shown where a crossfade is interrupted', () => {
+    const [second, third] = [randomMotion(30, 7), randomMotion(30, 8)];
+    const shown = (): Float32Array => {
+      dancers.pose(0.4);
+      return dancers.joints('reactor').slice();
+    };
+    /** The farthest that a coordinate is from where it was, metres. */
+    const moved = (from: Float32Array): number =>
+      Math.max(...shown().map((value, i) => Math.abs(value - from[i]!)));
+    const first = shown();
+    dancers.setMotion('reactor', second, true);
+    expect(moved(first)).toBeLessThan(1e-4);
+    dancers.advance(0.1);
+    const between = shown();
+    expect(moved(first)).toBeGreaterThan(0.05);
+    dancers.setMotion('reactor', third, true);
+    expect(moved(between)).toBeLessThan(1e-4);
+    dancers.advance(0.2);
+    expect(moved(between)).toBeGreaterThan(0.05);
+    dancers.advance(0.2);
+    expect(dancers.advance(0.2)).toBe(false);
+    const last = shown();
+    dancers.setMotion('reactor', null);
+    dancers.setMotion('reactor', third);
+    expect(moved(last)).toBe(0);
+  });
+
   it('draws low detail when told to, bodies that come later too, and full detail again', async () => {
     const triangles = (): number => {
       let count = 0;
