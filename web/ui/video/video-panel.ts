@@ -36,6 +36,16 @@ export interface PanelActions {
   readonly resized: () => void;
 }
 
+/**
+ * How much of the stage dancers keep clear of: none where half of it is covered, as on a phone while a person is chosen.
+ * There is no room beside that, and the dancers would be shown tiny in what is left.
+ * @param right how far the panel reaches from the left of the stage, CSS pixels
+ * @param width of the stage, CSS pixels
+ */
+export function coveredBy(right: number, width: number): number {
+  return right < width / 2 ? right : 0;
+}
+
 /** The video beside the stage: its picture, progress while it is read, then advice and corrections. */
 export class VideoPanel {
   readonly #root: HTMLElement;
@@ -154,9 +164,10 @@ export class VideoPanel {
     this.#part = seconds;
   }
 
-  /** How far it reaches from the left of the stage, CSS pixels; 0 while it is hidden. */
+  /** How much of the stage it covers, from the left, CSS pixels; 0 while it is hidden. */
   get right(): number {
-    return this.#root.offsetLeft + this.#root.offsetWidth;
+    const { offsetLeft, offsetWidth, parentElement } = this.#root;
+    return coveredBy(offsetLeft + offsetWidth, parentElement?.clientWidth ?? 0);
   }
 
   /** Another video is shown in its place. */
