@@ -164,3 +164,63 @@ test('a test that has begun goes on when files are read that were chosen before 
   release();
   await expect(questions.getByRole('button', { name: /Play|Pause/ })).toBeEnabled({ timeout: 60_000 });
 });
+
+test('the time of an answer counts from the first showing of its pair, also after going back', async ({
+  page,
+}) => {
+  await withoutPicture(page);
+  await page.addInitScript(() => {
+    const now = performance.now.bind(performance);
+    Object.assign(window, { later: 0 });
+    performance.now = () => now() + (Reflect.get(window, 'later') as number);
+  });
+  await page.goto(STUDY);
+  const setup = page.getByRole('region', { name: 'Setup' });
+  await setup.locator('input[type="file"]').first().setInputFiles(FILES);
+  await setup.getByRole('button', { name: 'Start' }).click();
+  const questions = page.getByRole('region', { name: 'Questions' });
+  await expect(questions.getByRole('button', { name: /Play|Pause/ })).toBeEnabled();
+  const asked = await questions.getByRole('group').count();
+  for (const key of '333'.slice(0, asked)) await page.keyboard.press(key);
+  await page.keyboard.press('Enter');
+  await expect(questions.getByRole('heading')).toHaveText('Pair 2 of 2');
+  await page.evaluate('window.later = 100_000');
+  await questions.getByRole('button', { name: 'Back' }).click();
+  await expect(questions.getByRole('heading')).toHaveText('Pair 1 of 2');
+  await questions.getByRole('radio', { name: 'B clearly' }).first().check();
+  await questions.getByRole('button', { name: 'Next pair' }).click();
+  for (const key of '333'.slice(0, 5 - asked)) await page.keyboard.press(key);
+  await questions.getByRole('button', { name: 'Finish' }).click();
+  const answers = (await saved(page, 'Save answers (CSV)')).trim().split('\r\n');
+  const changed = answers.find((line) => line.includes(',1,') && line.includes(',naturalness,2,'));
+  expect(Number(changed?.split(',').at(-1))).toBeGreaterThan(100);
+});
+
+test('playback that stops by itself is said, and goes on with a click', async ({ page }) => {
+  await withoutPicture(page);
+  await page.goto(STUDY);
+  const setup = page.getByRole('region', { name: 'Setup' });
+  await setup.locator('input[type="file"]').first().setInputFiles(FILES.slice(0, 4));
+  await setup.getByRole('button', { name: 'Start' }).click();
+  const questions = page.getByRole('region', { name: 'Questions' });
+  const time = questions.getByRole('slider', { name: 'Time' });
+  await expect(questions.getByRole('button', { name: 'Pause' })).toBeEnabled();
+  // The next round of the song is refused.
+  await page.evaluate(() => {
+    const { prototype } = HTMLMediaElement;
+    const play: unknown = Reflect.get(prototype, 'play');
+    Object.assign(prototype, { play: () => Promise.reject(new DOMException('no', 'NotAllowedError')) });
+    Object.assign(window, { allow: () => Object.assign(prototype, { play }) });
+  });
+  const alert = page.getByRole('alert');
+  await expect(alert).toContainText('The browser did not start the sound.');
+  const play = questions.getByRole('button', { name: 'Play' });
+  await play.click();
+  await expect(play).toBeVisible();
+  await expect(alert).toBeVisible();
+  await page.evaluate('window.allow()');
+  await play.click();
+  await expect(alert).toBeHidden();
+  const stood = await time.inputValue();
+  await expect(time).not.toHaveValue(stood);
+});

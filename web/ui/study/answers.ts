@@ -31,7 +31,7 @@ export interface Answer extends Pair {
   readonly criterion: Criterion;
   /** -2 to 2; below 0 the left dance is preferred. */
   readonly score: number;
-  /** Seconds from the first showing of the pair to this answer. */
+  /** Seconds from the first showing of the pair to this answer; after a reload from the first one since then. */
   readonly seconds: number;
 }
 

@@ -54,7 +54,8 @@ export class PairPlayer {
   /** @throws {AppError} `playback-refused` */
   async play(): Promise<void> {
     await this.player.play();
-    this.#follow();
+    // A pause or another pair may have come meanwhile.
+    if (this.player.playing) this.#follow();
   }
 
   pause(): void {
@@ -74,6 +75,8 @@ export class PairPlayer {
   }
 
   #follow(): void {
+    // One loop, also where play was asked for twice.
+    cancelAnimationFrame(this.#frame);
     this.#frame = requestAnimationFrame(() => {
       this.#show();
       if (this.player.playing) this.#follow();

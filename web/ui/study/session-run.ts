@@ -29,11 +29,13 @@ export class SessionRun {
   #set: StudySet | null = null;
   #session: Session | null = null;
   #number = 0;
-  /** When the present pair was shown first, milliseconds. */
-  #since = 0;
+  /** When each pair was shown first since the session was opened, by its number, milliseconds. */
+  readonly #shownFirst = new Map<number, number>();
   /** The pair whose dances are on the stage or are awaited. */
   #shown: Pair | null = null;
   #isWaiting = false;
+  /** The visitor was told that the sound could not be started. */
+  #isSoundMissing = false;
 
   constructor(
     private readonly services: SessionServices,
@@ -61,6 +63,9 @@ export class SessionRun {
     this.#player = new PairPlayer(services.stage, services.player, (seconds, duration) => {
       this.#view.showTime(seconds, duration, services.player.playing);
     });
+    services.player.onFailure = (error) => {
+      this.#failSound(error);
+    };
   }
 
   get element(): HTMLElement {
@@ -76,6 +81,7 @@ export class SessionRun {
   start(session: Session, set: StudySet | null): void {
     this.#set = set;
     this.#session = session;
+    this.#shownFirst.clear();
     this.#keep();
     this.#go(firstOpen(session, (pair) => this.#criteria(pair).length));
   }
@@ -133,10 +139,13 @@ export class SessionRun {
       const dances = await this.#dances(pair);
       if (this.#shown !== pair) return;
       this.#isWaiting = false;
-      this.#since = this.services.now();
+      if (!this.#shownFirst.has(this.#number)) this.#shownFirst.set(this.#number, this.services.now());
       this.#showPair(null, false);
       this.#player.show(dances);
-      await this.#play();
+      // A browser that wants a click before any sound gets it from the Play button.
+      await this.#play().catch((error: unknown) => {
+        if (!(error instanceof AppError && error.code === 'playback-refused')) throw error;
+      });
       const next = this.#session?.pairs[this.#number + 1];
       if (next) await this.#dances(next).catch(() => undefined);
     } catch (error) {
@@ -154,21 +163,37 @@ export class SessionRun {
     return { leader, left: a, right: await duet.partner(right), song: duet.song };
   }
 
+  /** @throws {AppError} `playback-refused` */
   async #play(): Promise<void> {
-    // A browser that wants a click before any sound gets it from the Play button.
-    await this.#player.play().catch((error: unknown) => {
-      if (!(error instanceof AppError && error.code === 'playback-refused')) throw error;
-    });
+    await this.#player.play();
+    if (this.#isSoundMissing && this.#player.playing) {
+      this.#isSoundMissing = false;
+      this.events.onRetry();
+    }
   }
 
   async #togglePlay(): Promise<void> {
-    if (!this.#player.playing) return this.#play();
+    if (this.#player.playing) {
+      this.#player.pause();
+      this.#player.seek(this.services.player.time);
+      return;
+    }
+    await this.#play().catch((error: unknown) => {
+      this.#failSound(error);
+    });
+  }
+
+  /** Playback has stopped: the picture stands, and the button offers to play. */
+  #failSound(error: unknown): void {
     this.#player.pause();
     this.#player.seek(this.services.player.time);
+    this.#isSoundMissing = true;
+    this.events.onProblem(error);
   }
 
   #answer(criterion: Criterion, score: number): void {
-    const seconds = (this.services.now() - this.#since) / 1000;
+    const now = this.services.now();
+    const seconds = (now - (this.#shownFirst.get(this.#number) ?? now)) / 1000;
     this.#session = withAnswer(this.#session!, this.#number, criterion, score, seconds);
     this.#keep();
     this.#showPair(null, false);
