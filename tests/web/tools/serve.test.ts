@@ -31,7 +31,7 @@ beforeAll(async () => {
   writeFileSync(path.join(root, 'index.html'), '<!doctype html><title>Page</title>');
   writeFileSync(path.join(root, 'assets', 'main-1a2b.js'), script);
   writeFileSync(path.join(root, 'song.wav'), song);
-  writeFileSync(path.join(root, 'step.onnx'), song);
+  for (const name of ['step.onnx', 'sample.webm', 'dance.glb']) writeFileSync(path.join(root, name), song);
   writeFileSync(path.join(fixtures, 'manifest.json'), '{}');
   await precompress(root);
   site = createSite({ root, mounts: { '/models/tiny/': fixtures } });
@@ -124,6 +124,20 @@ describe('the server of the built app', () => {
     expect([outside.status, outside.headers['content-range']]).toEqual([416, 'bytes */1000']);
     expect((await get('/song.wav', { Range: 'bytes=0-1,5-9' })).body).toEqual(song);
     expect((await get('/song.wav', {}, 'HEAD')).headers['content-length']).toBe('1000');
+  });
+
+  it('says what videos, scenes and graphs are, also of a part', async () => {
+    for (const [name, type] of [
+      ['sample.webm', 'video/webm'],
+      ['dance.glb', 'model/gltf-binary'],
+      ['step.onnx', 'application/octet-stream'],
+    ] as const) {
+      const whole = await get(`/${name}`);
+      const part = await get(`/${name}`, { Range: 'bytes=100-199' });
+      for (const { headers } of [whole, part]) expect([name, headers['content-type']]).toEqual([name, type]);
+      expect([whole.status, whole.headers['accept-ranges'], part.status]).toEqual([200, 'bytes', 206]);
+      expect(part.body).toEqual(song.subarray(100, 200));
+    }
   });
 
   it('does not send again what the browser has', async () => {
