@@ -8,7 +8,7 @@ import {
   ShaderMaterial,
   Vector3,
 } from 'three';
-import { ballHeight, FEET, footMatrix, heelHeight } from './dancer/foot-placement';
+import { ballHeight, BOTH_FEET, footMatrix, heelHeight } from './dancer/foot-placement';
 import { MAX_FIGURES, type Figure } from './overlays/overlay';
 import type { Look } from './theme';
 
@@ -49,7 +49,7 @@ void main() {
 }`;
 
 export function createContactShadows(): ContactShadows {
-  const capacity = MAX_FIGURES * FEET.length * 2;
+  const capacity = MAX_FIGURES * BOTH_FEET.length * 2;
   const plane = new PlaneGeometry(WIDTH, LENGTH).rotateX(-Math.PI / 2);
   const strength = new InstancedBufferAttribute(new Float32Array(capacity), 1).setUsage(DynamicDrawUsage);
   plane.setAttribute('strength', strength);
@@ -78,7 +78,7 @@ export function createContactShadows(): ContactShadows {
         strength.setX(count++, (1 - lifted) ** 2);
       };
       for (const { joints, motion } of figures)
-        for (const foot of FEET) {
+        for (const foot of BOTH_FEET) {
           footMatrix(joints, foot, BALL, 0.003, place);
           add(ballHeight(joints, foot));
           footMatrix(joints, foot, HEEL, 0.003, place);

@@ -31,8 +31,9 @@ export function lookingAt(
 
 /**
  * Turns the landmarks from the axes of what the network saw, which looks straight at the person, to those of the
- * camera, which looks past them. In place.
+ * camera, which looks past them.
  * @param focal focal length, pixels
+ * @returns frames x 33 x 3, metres
  */
 export function toCameraAxes(series: Series, focal: number): Float64Array {
   const { world, centre, frames } = series;

@@ -1,11 +1,10 @@
-import { J } from '../../motion/skeleton/skeleton';
+import { FEET } from '../../motion/skeleton/skeleton';
 import type { Shot } from '../../common/framing';
 import { shotOf, type Couple } from './framing';
 
 /** What a camera can show of a moment: the feet of the dancer that was made, both trunks, or the whole couple. */
 export type Detail = 'feet' | 'trunks' | 'couple';
 
-const FEET = [J.left_ankle, J.right_ankle, J.left_foot, J.right_foot];
 /** Distances at which the feet and the trunks fill the picture, metres, and the heights that are looked at. */
 const FEET_DISTANCE = 2.6;
 const FEET_HEIGHT = 0.2;

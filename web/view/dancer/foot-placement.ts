@@ -1,5 +1,5 @@
 import type { Matrix4 } from 'three';
-import { J } from '../../motion/skeleton/skeleton';
+import { FEET } from '../../motion/skeleton/skeleton';
 import { SOLE } from '../../motion/skeleton/kinematics';
 
 interface Foot {
@@ -7,9 +7,11 @@ interface Foot {
   readonly toe: number;
 }
 
-export const FEET: readonly Foot[] = [
-  { ankle: J.left_ankle, toe: J.left_foot },
-  { ankle: J.right_ankle, toe: J.right_foot },
+const [leftAnkle, rightAnkle, leftToe, rightToe] = FEET as readonly [number, number, number, number];
+/** The left foot and the right one. */
+export const BOTH_FEET: readonly Foot[] = [
+  { ankle: leftAnkle, toe: leftToe },
+  { ankle: rightAnkle, toe: rightToe },
 ];
 
 /** Height of the sole under the ball of a foot, metres; `joints` are 22 x 3, metres. */

@@ -7,10 +7,10 @@ const HANDS = [
   [J.left_elbow, J.left_wrist],
   [J.right_elbow, J.right_wrist],
 ] as const;
-const FEET = [J.left_foot, J.right_foot] as const;
+const TOES = [J.left_foot, J.right_foot] as const;
 
 /** Number of end effectors: two hands, then two feet. */
-export const END_EFFECTORS = HANDS.length + FEET.length;
+export const END_EFFECTORS = HANDS.length + TOES.length;
 
 /**
  * Positions of the end effectors over a motion: frames x 4 x 3 metres, left hand, right hand, left foot, right foot. A
@@ -31,7 +31,7 @@ export function endEffectorTracks({
       for (let axis = 0; axis < 3; axis++)
         tracks[at + hand * 3 + axis] = joint(wrist, axis) + forearm[axis]! * share;
     });
-    FEET.forEach((foot, i) => {
+    TOES.forEach((foot, i) => {
       for (let axis = 0; axis < 3; axis++) tracks[at + (HANDS.length + i) * 3 + axis] = joint(foot, axis);
     });
   }
