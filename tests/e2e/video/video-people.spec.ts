@@ -193,9 +193,14 @@ test('of a video with a cut the longest part is used, until another one is chose
   await expect(panel.getByRole('spinbutton', { name: 'Use to' })).toBeInViewport({ ratio: 0.9 });
   const from = panel.getByRole('spinbutton', { name: 'Use from' });
   await expect(from).toHaveValue('1.3');
+  const reversed = panel.getByText('The beginning has to lie before the end');
+  await from.fill('9');
+  await from.press('Tab');
+  await expect(reversed).toBeVisible();
   await from.fill('0');
   await from.press('Tab');
   await expect(panel.getByText('There is a cut at 1.3 s in what is used')).toBeVisible();
+  await expect(reversed).toBeHidden();
   await expect.poll(seconds).toBeCloseTo(3.4, 1);
 });
 

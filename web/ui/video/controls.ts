@@ -1,5 +1,5 @@
 import type { VideoMotion, WorldOptions } from '../../video/client';
-import { el } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 
 export interface Controls {
   readonly root: HTMLElement;
@@ -36,6 +36,7 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
       const trim = chosen ? { start: from, end: to } : null;
       const tall = height.valueAsNumber / 100;
       const focal = focalFor(distance.valueAsNumber);
+      setText(problem, from >= to ? 'The beginning has to lie before the end: nothing was changed.' : '');
       if ([from, to, tall, focal].every(Number.isFinite) && from < to) change({ height: tall, focal, trim });
     }, WAIT_MS);
   };
@@ -52,6 +53,7 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
   const start = number('video-start', 0, 600, 0.1, 0);
   const end = number('video-end', 0, 600, 0.1, 0);
   for (const input of [start, end]) input.addEventListener('change', () => (chosen = true));
+  const problem = el('p', { class: 'status', attributes: { 'aria-live': 'polite' } });
   const row = (label: string, unit: string, input: HTMLInputElement): HTMLElement =>
     el('label', { attributes: { for: input.id } }, label, input, el('span', { text: unit }));
   const root = el(
@@ -68,6 +70,7 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
     row('Distance of the camera', 'm', distance),
     row('Use from', 's', start),
     row('Use to', 's', end),
+    problem,
   );
   const showUsed = (span: Span, used: Span | null): void => {
     // Inwards, so that no picture beyond a cut is in it.
