@@ -33,6 +33,7 @@ test('a recording counts down, plays the song, and is read', async ({ page, cont
   await page.keyboard.press('Escape');
   await expect(dialog).toBeHidden();
   await expect(opener).toBeFocused();
+  await page.getByRole('combobox', { name: 'Speed' }).selectOption('0.5');
   await opener.click();
   await dialog.getByRole('button', { name: 'Record' }).click();
   const spoken = dialog.getByRole('status');
@@ -41,13 +42,17 @@ test('a recording counts down, plays the song, and is read', async ({ page, cont
   await expect(dialog.getByText('Recording, 1 of at most 120 s')).toBeVisible();
   // A clock that is spoken every second would be heard over everything else.
   await expect(spoken).toHaveText('Recording.');
-  expect(await app.read(({ playback, song }) => song !== null && playback.playing)).toBe(true);
+  expect(
+    await app.read(({ playback, song }) => song !== null && playback.playing && playback.speed),
+    'the song has its own speed',
+  ).toBe(1);
   await dialog.getByRole('button', { name: 'Stop' }).click();
   await expect(dialog).toBeHidden();
   await expect(page.getByRole('status').getByText('The recording has ended.')).toBeAttached();
   // Nobody is in the picture.
   await expect(app.alert).toHaveAttribute('data-code', 'no-person', { timeout: 60_000 });
-  expect(await app.read(({ leader, playback }) => [leader?.name, playback.playing])).toEqual([before, false]);
+  const after = await app.read(({ leader, playback }) => [leader?.name, playback.playing, playback.speed]);
+  expect(after).toEqual([before, false, 0.5]);
 });
 
 test('a camera that stops by itself ends the recording, and what was recorded is read', async ({

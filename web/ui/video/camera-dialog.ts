@@ -1,6 +1,7 @@
 import { AppError } from '../../common/error';
 import type { Services } from '../store/services';
 import { toastShown } from '../store/actions/notices';
+import { playbackSet } from '../store/actions/view';
 import { apply, type Store } from '../store/store';
 import { textButton, closeButton } from '../widgets/button';
 import { el, rememberFocus, setText } from '../widgets/dom';
@@ -155,7 +156,10 @@ async function record(
     if (store.getState().playback.playing !== on) playback.togglePlay();
   };
   recorder.start(1000);
+  const { speed, loop } = store.getState().playback;
   if (store.getState().song) {
+    // The song is taken to run on from where it begins.
+    apply(store, playbackSet({ speed: 1, loop: false }));
     playback.seek(0);
     play(true);
   }
@@ -167,6 +171,7 @@ async function record(
   const byItself = early.signal.aborted;
   if (recorder.state !== 'inactive') recorder.stop();
   play(false);
+  apply(store, playbackSet({ speed, loop }));
   await stopped;
   if (cancelled.aborted) return null;
   const kind = recorder.mimeType.startsWith('video/mp4') ? 'mp4' : 'webm';
