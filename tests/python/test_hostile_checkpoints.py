@@ -111,8 +111,12 @@ def test_a_card_keeps_what_a_person_wrote_and_takes_the_numbers_of_the_newest_tr
     path = tmp_path / "a" / "card.json"
     path.write_text(json.dumps(read_card(tmp_path / "a") | {"name": "Tango", "notes": ["one couple"]}))
     write_card(tmp_path / "a", 1.5, 1.25, {"leader": np.ones((22, 3))}, 1.2)
-    numbers = {"reference_height": 1.5, "unfamiliar_from": 1.2, "reactor_height": 1.25}
-    numbers["training_bodies"] = {"leader": [[1.0] * 3] * 22}
+    numbers = {
+        "reference_height": 1.5,
+        "unfamiliar_from": 1.2,
+        "reactor_height": 1.25,
+        "training_bodies": {"leader": [[1.0] * 3] * 22},
+    }
     card = read_card(tmp_path / "a")
     assert card["name"] == "Tango"
     assert card.items() >= numbers.items()

@@ -125,8 +125,9 @@ def test_a_generator_is_given_leaders_in_the_body_of_their_role_and_all_else_as_
     wide = (np.array(own) * np.where(np.arange(22) == JOINTS.index("left_collar"), 2, 1)[:, None]).tolist()
     wrapped = in_training_bodies(generate, {"leader": own, "reactor": wide})
     leader = standing(8).astype(np.float32)
-    for controls in ({}, {"role": 1.0, "variety": 0.5}, {"condition_leader": 1.5 * leader}):
-        wrapped(leader, None, 0, **controls)
+    wrapped(leader, None, 0)
+    wrapped(leader, None, 0, role=1.0, variety=0.5)
+    wrapped(leader, None, 0, condition_leader=1.5 * leader)
     (plain, of_plain), (_, of_role), (_, of_other) = given
     assert plain is leader
     assert of_plain["condition_leader"] == pytest.approx(leader, abs=0.01)
