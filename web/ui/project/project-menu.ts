@@ -99,7 +99,7 @@ function build(services: Services, toggle: () => void): Elements {
   const clear = entry(
     'remove',
     'Start over',
-    'Empties the page; undo brings it back until you make a take or close the page',
+    'Empties the page; undo brings it back until you make a take or leave the page',
     services.clearProject,
   );
   const record = entry(

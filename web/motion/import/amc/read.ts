@@ -1,5 +1,5 @@
 import { type Bone, damagedAsf, inOrder, readAsf } from './asf';
-import { refuseTooFew, refuseTooLong } from '../positions';
+import { refuseTooFew, refuseTooLong } from '../../retarget/length';
 import type { FileBytes } from '../read';
 import { AppError } from '../../../common/error';
 import { conjugate, multiply, type Quat, writeQuat } from '../../math/quat';

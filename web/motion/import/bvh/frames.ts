@@ -1,6 +1,6 @@
 import { type BvhNode, truncated } from './hierarchy';
 import { HINT_EXPORT_AGAIN, numberProblem, numberHint } from './number';
-import { refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
 import { AppError } from '../../../common/error';
 
 /** The frames of a file, checked. */

@@ -1,6 +1,6 @@
 import { AppError } from '../../../common/error';
 import { type Vec3, writeVec } from '../../math/vec3';
-import { refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
 
 const BLOCK = 512;
 /** Marks of the processors whose numbers a file has. */

@@ -3,7 +3,7 @@ import { readBinary } from './binary';
 import { damagedFbx } from './node';
 import { type Clip, type Curve, type FbxScene, type Model, sceneOf } from './scene';
 import { placeWithin, rigOf, type Stretch, stretchOf } from './transform';
-import { refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
 import { AppError } from '../../../common/error';
 import { writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';

@@ -3,7 +3,7 @@ import { type Gltf, readContainer } from './container';
 import { humanoidNames } from './humanoid';
 import { posesOf, skeletonOf } from './skeleton';
 import { onBody } from './on-body';
-import { refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
 import type { FileBytes } from '../read';
 import { AppError } from '../../../common/error';
 import { pickDancer, pickFirstDancer } from '../../retarget/dancers';

@@ -1,5 +1,6 @@
 import { AVERAGE_BODY } from '../average-body';
-import { refuseTooFew, SMPL_JOINTS } from '../positions';
+import { refuseTooFew } from '../../retarget/length';
+import { SMPL_JOINTS } from '../positions';
 import type { NpzArray } from '../../../common/npz';
 import { aboutAxis, type Quat, writeQuat, IDENTITY } from '../../math/quat';
 import { length, scale, type Vec3, writeVec } from '../../math/vec3';

@@ -1,6 +1,7 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { leaderFirst, refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
+import { leaderFirst } from '../positions';
 import { isOfMotive, readMotive } from './motive';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';

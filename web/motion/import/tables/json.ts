@@ -1,5 +1,6 @@
 import { sourceOfPoints } from '../keypoints';
-import { leaderFirst, refuseTooLong, SMPL_JOINTS } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
+import { leaderFirst, SMPL_JOINTS } from '../positions';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';

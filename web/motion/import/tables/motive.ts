@@ -1,6 +1,6 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
 import { AppError } from '../../../common/error';
 import { unitOfWord } from '../../retarget/axes-and-units';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';

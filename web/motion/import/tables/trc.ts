@@ -1,6 +1,6 @@
 import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
-import { refuseTooLong } from '../positions';
+import { refuseTooLong } from '../../retarget/length';
 import { AppError } from '../../../common/error';
 import { linesOf } from '../../../common/lines';
 import { unitOfWord } from '../../retarget/axes-and-units';

@@ -2,7 +2,7 @@ import { MMD_JOINTS, MMD_OFFSETS, mmdBone } from './body';
 import { poseAt } from './curve';
 import { readVmdFile, type Vmd } from './file';
 import { solveLeg } from './leg-ik';
-import { refuseTooFew } from '../positions';
+import { refuseTooFew } from '../../retarget/length';
 import { AppError } from '../../../common/error';
 import { multiply, type Quat, rotate, writeQuat } from '../../math/quat';
 import { add, type Vec3, writeVec } from '../../math/vec3';
