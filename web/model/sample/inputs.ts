@@ -168,7 +168,7 @@ export function checkCoarse({ leader, latents }: CoarseRequest, { latent }: Mani
 
 /**
  * Scales the leader to the reference height, and brings leader and music to a common, whole number of latent frames. The
- * condition gets the leader in the body of those of the training: rigs put shoulders and hips in other places, and the
+ * condition gets the leader in the body of the training's leaders: rigs put shoulders and hips in other places, and the
  * network has seen few bodies.
  */
 export function prepareInput({ leader, fitted, music, role }: Source, manifest: Manifest): ModelInput {
