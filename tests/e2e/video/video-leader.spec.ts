@@ -184,6 +184,14 @@ test('a video outlasts the demo that comes while it is read, and gives way to un
   await expect(panel.getByRole('progressbar')).toBeHidden();
   expect(await app.read(({ leader }) => leader?.name)).toBe('first.webm');
 
+  // Another video of the same name, as all recordings have: after undo it is not that of the leader.
+  const steps = await app.read(({ history }) => history.past.length);
+  await app.drop({ name: 'first.webm', mimeType: 'video/webm', buffer });
+  await app.until(({ history, job }, before) => history.past.length > before && !job, steps);
+  await page.keyboard.press('Control+z');
+  await expect(panel).toHaveCount(0);
+  expect(await app.read(({ leader }) => leader?.name)).toBe('first.webm');
+
   await app.drop({ name: 'second.webm', mimeType: 'video/webm', buffer });
   await expect(panel.getByRole('progressbar')).toBeVisible();
   await app.drop(bvh({ frames: 90, name: 'mine.bvh' }));
