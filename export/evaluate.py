@@ -157,11 +157,11 @@ def main(options: Options) -> None:
         model = open_model(options.model, options.threads)
         graphs = {k: g["files"]["wasm"]["sha256"] for k, g in model.manifest["graphs"].items()}
         facts |= {"model": model.manifest["id"], "runtime": "onnxruntime", "graphs": graphs}
-        name, bodies = model.manifest["name"], model.manifest["skeleton"]["training_bodies"]
+        name, card = model.manifest["name"], model.manifest["skeleton"]
     else:
         assert checkpoint is not None and options.checkpoint is not None
         model, name = checkpoint, options.checkpoint.name
-        bodies = read_card(options.checkpoint)["training_bodies"]
+        card = read_card(options.checkpoint)
         facts |= {"model": name, "runtime": "pytorch"}
     if options.no_latent_baseline is not None:
         baseline = reactor_generator(load_model(options.no_latent_baseline))
@@ -186,8 +186,8 @@ def main(options: Options) -> None:
     generate = reactor_generator(CachedModel(model), options.steps)
     every_step = reactor_generator(checkpoint, options.steps, at_every_step=True) if checkpoint else None
     if options.solve:
-        generate = in_training_bodies(generate, bodies)
-        every_step = every_step and in_training_bodies(every_step, bodies)
+        generate = in_training_bodies(generate, card["training_bodies"])
+        every_step = every_step and in_training_bodies(every_step, card["training_bodies"])
     seen = options.settings.seen_leaders or (solos_seen(options.checkpoint) if options.checkpoint else ())
     evaluation = evaluate(
         generate,

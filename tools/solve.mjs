@@ -69,12 +69,12 @@ const song =
   values.song === undefined ? null : new Float32Array(new Uint8Array(readFileSync(values.song)).buffer);
 const beats = song === null ? [] : rhythmOf(song, manifest.audio).beats;
 const body = values.body === undefined ? null : read(values.body).positions;
+const height = body && bodyHeight({ fps: 30, frames: 1, positions: restPositions(body) });
 for (const file of positionals) {
   const clip = read(file);
   let motion = solve(clip);
-  if (body !== null) {
-    const rest = { fps: 30, frames: 1, positions: restPositions(body) };
-    const positions = inBody(clip, motion, body, bodyHeight(rest) / bodyHeight(clip));
+  if (body !== null && height !== null) {
+    const positions = inBody(clip, motion, body, height / bodyHeight(clip));
     writeFileSync(file, new Uint8Array(positions.buffer));
     console.log(`${file}: ${motion.frames} frames in another body`);
     continue;

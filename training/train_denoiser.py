@@ -93,21 +93,22 @@ def main(options: Options) -> None:
     height, reactor_height = (
         float(np.mean([body_height(getattr(d, role)) for d in duets.train])) for role in ("leader", "reactor")
     )
+    leaders, reactors = [d.leader for d in duets.train], [d.reactor for d in duets.train]
+    training_bodies = mean_bodies(leaders, reactors, height)
 
     def finish() -> None:
         """Measure and save the averaged denoiser."""
         with run.averaged() as averaged:
             model = Model(hfsq.cpu(), frame, averaged, options.diffusion, height)
-            set_bodies(model, [d.leader for d in duets.train], [d.reactor for d in duets.train])
+            set_bodies(model, leaders, reactors)
             report = validate(model, bank, duets.val)
             run.logger.write(run.schedule, report)
             run.logger.draw()
             provenance = run.provenance("training.train_denoiser", leave_out=("denoiser", "diffusion"))
             provenance |= {"validation": report} | before
             save_denoiser(options.out, hfsq, averaged, options.diffusion, provenance)
-            known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
-            bodies = mean_bodies([d.leader for d in duets.train], [d.reactor for d in duets.train], height)
-            write_card(options.out, height, reactor_height, bodies, UNFAMILIAR_RATIO * known)
+            known = max(float(model.unfamiliarity(at_height(leader, height)).mean()) for leader in leaders)
+            write_card(options.out, height, reactor_height, training_bodies, UNFAMILIAR_RATIO * known)
         hfsq.to(fabric.device)
 
     run.train(lambda random: windows.batch(options.batch, random), finish, finish)

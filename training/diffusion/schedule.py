@@ -50,7 +50,7 @@ def ddim_steps(alpha_bar: np.ndarray, count: int, last_time: float) -> list[Step
     total = len(alpha_bar)
     if not 1 / total <= last_time <= 1:
         raise ValueError(f"the last time has to be between {1 / total} and 1, got {last_time}")
-    way = total - math.floor(last_time * total + 0.5)  # halves go up, as in the page's language
+    way = total - math.floor(last_time * total + 0.5)  # halves go up, as in JavaScript
     if not 1 <= count <= way + 1:
         raise ValueError(f"between 1 and {way + 1} steps, got {count}")
     timesteps = [total - 1 - way * k // max(count - 1, 1) for k in range(count)]

@@ -49,8 +49,6 @@ const around = v.pipe(v.number(), v.gtValue(0), v.maxValue(300));
 /** Least and greatest weight, the distance between two of them, and the default. */
 const range = v.object({ min: finite, max: finite, step: v.pipe(positive, v.gtValue(0)), default: finite });
 
-/** Norms of what the song changes between which its weight falls, and over how many latent frames to each side they are meant. */
-
 /** Constants of the measures on the page, as Python has them; see quality/rules.ts. */
 const quality = v.object({
   contact: v.object({
