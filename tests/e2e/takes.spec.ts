@@ -83,6 +83,20 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(takes(page)).toContainText(['Softer hands', older]);
   });
 
+  await test.step('a double click in the name that is being typed selects a word of it', async () => {
+    await page.keyboard.press('F2');
+    const field = page.getByRole('textbox', { name: 'Name of the take' });
+    await field.fill('Wide turns');
+    await field.dblclick({ position: { x: 12, y: 10 } });
+    await page.keyboard.type('Slow');
+    await expect(field).toHaveValue(/^Slow ?turns$/);
+    // Enter that ends the composition of a letter is none of the page's.
+    await field.dispatchEvent('keydown', { key: 'Enter', isComposing: true });
+    await expect(field).toBeVisible();
+    await page.keyboard.press('Escape');
+    await expect(take(page, 'Softer hands')).toBeFocused();
+  });
+
   await test.step('the take with letter A can get B, and the other one gets A', async () => {
     await page.getByRole('button', { name: 'Use Softer hands as B' }).click();
     await expect(page.getByRole('button', { name: `Use ${older} as A` })).toHaveAttribute(

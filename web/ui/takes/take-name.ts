@@ -28,6 +28,8 @@ export function createTakeName(onRename: (name: string) => void, onLeave: () => 
         // The shortcuts of the list and of the page do nothing while someone types.
         event.stopPropagation();
         if (event.key !== 'Enter' && event.key !== 'Escape') return;
+        // There they choose what an input method offers.
+        if (event.isComposing) return;
         event.preventDefault();
         close(event.key === 'Enter');
         onLeave();

@@ -60,7 +60,7 @@ export function createTakeRow(store: Store, id: string): TakeRow {
           apply(store, takeChosen(id));
         },
         dblclick: (event) => {
-          if (event.target instanceof Element && !event.target.closest('button')) name.edit();
+          if (event.target instanceof Element && !event.target.closest('button, input')) name.edit();
         },
       },
     },
