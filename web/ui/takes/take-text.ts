@@ -8,7 +8,7 @@ const MAX_NAME_LENGTH = 16;
 
 /**
  * What a take was made from, in a line: files, model and settings that differ from those on the page and the model's
- * defaults, seed and guidance always: `as leader, song 1.7 s later, seed 1204, 2 coarse, 1.5 fine`.
+ * defaults, seed and guidance always: `as leader, song 1.70 s later, seed 1204, 2 coarse, 1.5 fine`.
  */
 export function takeText({ reaction }: Take, { leader, song, manifest }: AppState): string {
   const { model, inputs } = reaction;
@@ -46,7 +46,8 @@ export function fullTakeText({ reaction: { inputs } }: Take): string {
 }
 
 function shiftText({ shift, leader }: Inputs): string[] {
-  const seconds = (Math.abs(shift) / leader.file.clip.fps).toFixed(1);
+  // A frame is 0.03 s.
+  const seconds = (Math.abs(shift) / leader.file.clip.fps).toFixed(2);
   return shift === 0 ? [] : [`song ${seconds} s ${shift > 0 ? 'later' : 'earlier'}`];
 }
 

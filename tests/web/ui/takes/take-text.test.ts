@@ -35,8 +35,9 @@ test('the line of a take leaves out what is as on the page and as the model’s 
 
 test.each<[string, Partial<Inputs>]>([
   [`as leader, ${guided}`, { settings: { ...settings, role: 'leader' } }],
-  [`song 1.7 s later, ${guided}`, { shift: 51 }],
-  [`song 0.5 s earlier, ${guided}`, { shift: -15 }],
+  [`song 1.70 s later, ${guided}`, { shift: 51 }],
+  [`song 0.50 s earlier, ${guided}`, { shift: -15 }],
+  [`song 0.03 s later, ${guided}`, { shift: 1 }],
   [`no song, ${guided}`, { song: null }],
   [`Descarga, ${guided}`, { song: song(4) }],
   [`to other, ${guided}`, { leader: leader(90, 'other.bvh') }],
@@ -62,7 +63,7 @@ test('the line of a take names its model where it is another than the page’s',
 
 test('the tooltip of a take names all inputs', () => {
   expect(fullTakeText(take({ shift: 51 }))).toBe(
-    `As reactor to leader_0412.bvh, with Descarga.mp3, song 1.7 s later, ` +
+    `As reactor to leader_0412.bvh, with Descarga.mp3, song 1.70 s later, ` +
       `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, 1.00 variety, seed 1204`,
   );
 });
