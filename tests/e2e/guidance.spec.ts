@@ -159,6 +159,34 @@ test('the seed is chosen at random, locked and kept, and swapped roles are named
   await expect(menu).toContainText(/_leader\.bvh/);
 });
 
+test('a height that is being typed outlasts a reaction that comes meanwhile', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.chooseLeader(bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.reaction('mine.bvh');
+  const height = page.getByRole('spinbutton', { name: 'Height of the reactor in centimetres' });
+  const label = await height.getAttribute('aria-label');
+  const earlier = await app.read(({ takes }) => takes.length);
+  // In one task of the page, so that the reaction comes after what is typed.
+  await page.evaluate(`
+    [...document.querySelectorAll('button')].find((one) => one.textContent === 'Generate again').click();
+    const height = document.querySelector('[aria-label="${label}"]');
+    height.focus();
+    height.select();
+    document.execCommand('insertText', false, '15');
+  `);
+  await app.until(({ takes, job }, count) => takes.length > count && !job, earlier);
+  await expect(height).toHaveValue('15');
+  await page.keyboard.type('5');
+  await page.keyboard.press('Enter');
+  expect(await app.read(({ settings }) => settings?.height)).toBe(1.55);
+  await height.fill('999');
+  await page.keyboard.press('Enter');
+  const highest = await height.getAttribute('max');
+  await expect(height, 'the nearest that can be asked for').toHaveValue(highest ?? '');
+});
+
 test('three reactions that differ most are made, to pick from', async ({ page }) => {
   const app = new App(page);
   await app.open();

@@ -2,7 +2,7 @@ import { HEIGHTS } from '../../model/client';
 import { standingHeight } from '../../motion/skeleton/kinematics';
 import { iconButton } from '../widgets/button';
 import { el } from '../widgets/dom';
-import { takeBackOnEscape } from '../widgets/unfinished-number';
+import { finishNumber, showNumber, takeBackOnEscape } from '../widgets/unfinished-number';
 import { centimetres } from '../store/format';
 import { generatedRole, roleName } from '../store/roles';
 import type { Mount } from '../store/services';
@@ -23,7 +23,7 @@ export const mountHeightBox: Mount = (root, store) => {
     on: {
       change: () => {
         if (!Number.isNaN(input.valueAsNumber)) apply(store, heightSet(input.valueAsNumber / 100));
-        show(store.getState());
+        finishNumber(input);
       },
     },
   });
@@ -54,7 +54,7 @@ export const mountHeightBox: Mount = (root, store) => {
     input.disabled = !settings;
     reset.hidden = set === null;
     const height = set ?? proportionalHeight(state);
-    input.value = input.defaultValue = height === null ? '' : String(centimetres(height));
+    showNumber(input, height === null ? '' : String(centimetres(height)));
     const who = roleName(generatedRole(state));
     input.setAttribute('aria-label', `Height of the ${who.toLowerCase()} in centimetres`);
     input.title =

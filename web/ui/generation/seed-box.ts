@@ -2,7 +2,7 @@ import { SEEDS } from '../../model/client';
 import { iconButton } from '../widgets/button';
 import { el } from '../widgets/dom';
 import { icon } from '../widgets/icons';
-import { takeBackOnEscape } from '../widgets/unfinished-number';
+import { finishNumber, showNumber, takeBackOnEscape } from '../widgets/unfinished-number';
 import type { Mount } from '../store/services';
 import { seedLockSet, seedRandomized, seedSet, randomSeed } from '../store/actions/settings';
 import { apply, watchAll } from '../store/store';
@@ -21,7 +21,7 @@ export const mountSeedBox: Mount = (root, store) => {
     on: {
       change: () => {
         apply(store, seedSet(input.valueAsNumber));
-        show();
+        finishNumber(input);
       },
     },
   });
@@ -40,7 +40,7 @@ export const mountSeedBox: Mount = (root, store) => {
     const { settings, seedLocked } = store.getState();
     input.disabled = lock.disabled = !settings;
     roll.disabled = !settings || seedLocked;
-    input.value = input.defaultValue = settings ? String(settings.seed) : '';
+    showNumber(input, settings ? String(settings.seed) : '');
     roll.title = seedLocked ? 'The seed is locked' : 'Another reaction (D)';
     lock.title = seedLocked ? 'Unlock the seed' : 'Lock the seed, so that it stays when you generate again';
     lock.setAttribute('aria-pressed', String(seedLocked));

@@ -1,12 +1,27 @@
 /**
- * Escape takes back a number that is being typed, and does nothing else on the page then.
- * @param input its default value is the one that holds until typing ends
+ * Shows a number that holds until typing ends. What is being typed stays, whatever else changes on the page meanwhile.
+ * @param text empty for none
  */
+export function showNumber(input: HTMLInputElement, text: string): void {
+  const typing = isUnfinished(input);
+  input.defaultValue = text;
+  if (!typing) input.value = text;
+}
+
+/** Typing has ended: shows the number that holds. */
+export function finishNumber(input: HTMLInputElement): void {
+  input.value = input.defaultValue;
+}
+
+/** Escape takes back a number that is being typed, and does nothing else on the page then. */
 export function takeBackOnEscape(input: HTMLInputElement): void {
   input.addEventListener('keydown', (event) => {
-    const isUnfinished = input.value !== input.defaultValue || input.validity.badInput;
-    if (event.key !== 'Escape' || !isUnfinished) return;
-    input.value = input.defaultValue;
+    if (event.key !== 'Escape' || !isUnfinished(input)) return;
+    finishNumber(input);
     event.stopPropagation();
   });
+}
+
+function isUnfinished(input: HTMLInputElement): boolean {
+  return input.value !== input.defaultValue || input.validity.badInput;
 }
