@@ -34,6 +34,33 @@ test('letters as shortcuts can be switched off, also for later visits; Space and
   expect(await loops()).toBe(true);
 });
 
+test('Space plays after a choice by the mouse, and opens a menu that was reached by keyboard', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await page.getByRole('button', { name: 'Pause' }).click();
+  const speed = page.getByRole('combobox', { name: 'Speed' });
+  const playing = (): Promise<boolean> => app.read(({ playback }) => playback.playing);
+
+  await speed.click();
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('Enter');
+  await app.until(({ playback }) => playback.speed === 1.25);
+  await page.keyboard.press('Space');
+  expect(await playing()).toBe(true);
+  await page.keyboard.press('Space');
+  expect(await playing()).toBe(false);
+
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Shift+Tab');
+  await expect(speed).toBeFocused();
+  await page.keyboard.press('Space');
+  expect(await playing()).toBe(false);
+});
+
 test.describe('on a small window, where the processor draws', () => {
   test.use({ viewport: { width: 780, height: 420 } });
 

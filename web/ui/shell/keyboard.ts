@@ -24,7 +24,8 @@ const DIALOGS = '[role="dialog"], [role="alertdialog"]';
 
 /**
  * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider or a choice that
- * has the focus; Space sets a checkbox, and presses a button in a dialog or one that the focus came to by keyboard.
+ * has the focus; Space sets a checkbox, and presses a button or opens a menu in a dialog or where the focus came to it by
+ * keyboard.
  */
 export function mountKeyboard(store: Store, services: Services): void {
   /** Whether the last press was of a key, and whether it was when the focus came to where it is. */
@@ -32,7 +33,8 @@ export function mountKeyboard(store: Store, services: Services): void {
   let byKey = false;
   let focused: EventTarget | null = null;
   const isPressedByKeys = (target: EventTarget | null): boolean =>
-    target instanceof HTMLButtonElement && (byKey || target.closest(DIALOGS) !== null);
+    (target instanceof HTMLButtonElement || target instanceof HTMLSelectElement) &&
+    (byKey || target.closest(DIALOGS) !== null);
   const onKey = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
@@ -72,7 +74,8 @@ export function mountKeyboard(store: Store, services: Services): void {
 
 /** Whether an element does something of its own with a key: typing, or to be chosen or moved. */
 function ownsKey(element: HTMLElement, key: string): boolean {
-  if (element.matches('input[type="number"], input[type="text"], select, textarea')) return true;
+  if (element.matches('input[type="number"], input[type="text"], textarea')) return true;
+  if (element.matches('select')) return key !== ' ';
   if (/^(Arrow|Home|End|Page)/.test(key))
     return element.matches('input[type="range"], input[type="radio"], [role="radio"]');
   return key === ' ' && element.matches('input[type="checkbox"], input[type="radio"], summary');
