@@ -237,3 +237,22 @@ test('the song is shifted by dragging, by keys and by the suggestion, and the re
     expect(await shift()).toBe(0);
   });
 });
+
+test('a drag of the song ends where the song has gone meanwhile', async ({ page }) => {
+  await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop(bvh({ frames: 300, name: 'mine.bvh' }));
+  await app.reaction('mine.bvh');
+  await app.drop(wav({ seconds: 10, name: 'mine.wav' }));
+  await app.until(({ reaction, song, job }) => song && reaction?.inputs.song === song && !job);
+  await drag(page, await place(page, /^Waveform/, 0.3), await place(page, /^Waveform/, 0.45));
+  const dragged = page.getByText(/frames, .* s later$/);
+  await expect(dragged).toBeVisible();
+  await page.keyboard.press('Control+z');
+  expect(await app.read(({ song }) => song)).toBeNull();
+  await page.mouse.up();
+  await expect(dragged).toBeHidden();
+  await page.keyboard.press('Control+y');
+  await expect(page.getByRole('slider', { name: 'Song shift' })).toHaveAttribute('aria-valuenow', '0');
+});

@@ -76,9 +76,9 @@ export class ShiftHandle {
         this.#options.onDragShift(shift);
       },
       drop: (distance) => {
-        if (!this.#canShift()) return;
+        // Also where the song has gone meanwhile, as when it is undone.
         this.#end();
-        apply(this.#store, shiftSet(this.#shiftAfter(distance)));
+        if (this.#canShift()) apply(this.#store, shiftSet(this.#shiftAfter(distance)));
       },
       click: (event) => {
         const { left } = this.handle.getBoundingClientRect();
