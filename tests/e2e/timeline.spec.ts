@@ -58,6 +58,12 @@ test('a part is looped: drawn on the ruler, changed by its handles and by keys',
   await page.mouse.up();
   expect((await region())?.from, 'the nearest beat').toBeCloseTo(2.5, 1);
 
+  const { to } = (await region())!;
+  await page.getByRole('slider', { name: 'Loop start' }).focus();
+  for (let frame = 0; frame < 20; frame++) await page.keyboard.press('ArrowRight');
+  expect(await region(), 'an end stops at the other one').toEqual({ from: to - 0.2, to });
+  await page.keyboard.press('Shift+ArrowLeft');
+
   await page.evaluate('document.activeElement.blur()');
   await page.keyboard.press('Home');
   await page.evaluate(`

@@ -6,7 +6,7 @@ import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
-import { regionEndSet, regionSet } from '../store/actions/timeline';
+import { MIN_LOOP, regionSet } from '../store/actions/timeline';
 import type { Span, TimeScale } from '../store/time-scale';
 import { timelineClicked } from './timeline-click';
 
@@ -153,7 +153,7 @@ export class LoopRegion {
     });
   }
 
-  /** An arrow key moves an end by a frame, with Shift to the next beat, or by a second where there is none. */
+  /** An arrow key moves an end by a frame, with Shift to the next beat, or by a second where there is none; not past the other end. */
   #moveByKey(end: End, event: KeyboardEvent): void {
     const by = ARROWS[event.key];
     const { region } = this.#store.getState().playback;
@@ -163,7 +163,12 @@ export class LoopRegion {
     const state = this.#store.getState();
     const beat = event.shiftKey ? beatBeside(countedBeats(state), region[end], by) : null;
     const step = event.shiftKey ? 1 : 1 / danceFps(state);
-    apply(this.#store, regionEndSet(end, beat ?? region[end] + by * step));
+    const time = beat ?? region[end] + by * step;
+    const next =
+      end === 'from'
+        ? { ...region, from: Math.min(time, region.to - MIN_LOOP) }
+        : { ...region, to: Math.max(time, region.from + MIN_LOOP) };
+    apply(this.#store, regionSet(next));
   }
 }
 
