@@ -1,5 +1,6 @@
 import type { Page } from '@playwright/test';
 import { App } from './support/app-page';
+import { bvh, wav } from './support/files';
 import { expect, test } from './support/fixtures';
 import { demoSettings, serveDemo } from './support/made-demo';
 import { rested } from './support/stage-rest';
@@ -109,6 +110,21 @@ test('two fingers zoom stage and timeline, and the page does not scroll', async 
     await expect.poll(() => pageView(page).then(([, , scrolled]) => scrolled)).toBeGreaterThan(50);
     expect(await app.read(({ playback }) => playback.time)).toBe(before);
   });
+});
+
+test('a tap on the song says where a “1” is, where that was asked for, and else jumps', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop(bvh({ frames: 300, name: 'mine.bvh' }), wav({ seconds: 10, name: 'mine.wav' }));
+  await app.reaction('mine.bvh');
+  await app.until(({ reaction, song, job }) => song && reaction?.inputs.song === song && !job);
+  await page.getByRole('button', { name: /Count/ }).tap();
+  await page.getByRole('button', { name: 'Click a beat' }).tap();
+  await page.touchscreen.tap(...(await middle(page, '.lane.song')));
+  await expect.poll(() => app.read(({ countings }) => countings[0]?.one)).toBeCloseTo(5, 1);
+  expect(await app.read(({ settingOne, playback }) => [settingOne, playback.time])).toEqual([false, 0]);
+  await page.touchscreen.tap(...(await middle(page, '.lane.song')));
+  await expect.poll(() => app.read(({ playback }) => playback.time)).toBeCloseTo(5, 1);
 });
 
 test('a small phone shows the whole first-visit block, and then stage and both faders together', async ({

@@ -23,14 +23,22 @@ export function createCountMenu(store: Store): HTMLElement {
     apply(store, panelToggled('counting'));
   };
   const { button, showPlace } = createButton(toggle);
-  const { menu, showChoices } = createMenu(store);
-  const element = el('div', { class: 'count-corner' }, button, menu);
+  const { menu, showChoices } = createMenu(store, toggle);
+  const hint = el('p', { class: 'float count-hint', attributes: { role: 'status' } });
+  const element = el('div', { class: 'count-corner' }, button, menu, hint);
   watchAll(
     store,
     (state) => [state.playback.time, state.song, state.countings, state.shift, state.leader],
     showPlace,
   );
   watchAll(store, (state) => [state.song, state.countings, state.settingOne], showChoices);
+  watch(
+    store,
+    (state) => state.settingOne,
+    (on) => {
+      setText(hint, on ? 'Now click the beat on the song.' : '');
+    },
+  );
   watch(
     store,
     (state) => state.openPanel === 'counting',
@@ -73,13 +81,19 @@ function createButton(toggle: () => void): {
   return { button, showPlace };
 }
 
-function createMenu(store: Store): {
+function createMenu(
+  store: Store,
+  close: () => void,
+): {
   readonly menu: HTMLElement;
   readonly showChoices: (state: AppState) => void;
 } {
   const tempo = el('span', { class: 'tempo' });
   const click = textButton('btn', 'Click a beat', () => {
-    apply(store, settingOneSet(!store.getState().settingOne));
+    const on = !store.getState().settingOne;
+    apply(store, settingOneSet(on));
+    // On a small screen the beats lie behind the menu.
+    if (on) close();
   });
   const here = textButton('btn', 'At the playhead', () => {
     apply(store, oneSet(store.getState().playback.time));
@@ -93,7 +107,6 @@ function createMenu(store: Store): {
   const found = textButton('btn', 'Count as found', () => {
     apply(store, countingSet(null));
   });
-  const hint = el('p', { attributes: { role: 'status' } });
   const menu = el(
     'div',
     { class: 'float count-menu', attributes: { role: 'dialog', 'aria-label': 'How the song is counted' } },
@@ -101,7 +114,6 @@ function createMenu(store: Store): {
     row('The “1”', el('div', { class: 'group' }, click, here)),
     row('Counts of', bars.element),
     row('Tempo', rates.element),
-    hint,
     found,
   );
   menu.hidden = true;
@@ -113,7 +125,6 @@ function createMenu(store: Store): {
     rates.show(rate);
     setDisabled(found, !countings.some((counting) => isOf(counting, song)));
     setAttribute(click, 'aria-pressed', String(settingOne));
-    setText(hint, settingOne ? 'Now click the beat in the ruler or on the song; Esc cancels.' : '');
   };
   return { menu, showChoices };
 }

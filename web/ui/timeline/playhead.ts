@@ -6,6 +6,7 @@ import type { Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { type Store, watchAll } from '../store/store';
 import type { TimeScale } from '../store/time-scale';
+import { timelineClicked } from './timeline-click';
 
 /** How far outside the picture, as a share of its width, the playhead still counts as inside. */
 const TOLERANCE = 1e-6;
@@ -117,13 +118,17 @@ export class Playhead {
 
   #up(event: PointerEvent): void {
     if (event.pointerId !== this.#pointer) return;
-    if (this.#undecided) this.#seekTo(event);
+    if (this.#undecided) timelineClicked(this.#store, this.#services, this.#timeAt(event), event);
     this.#pointer = null;
   }
 
   #seekTo(event: PointerEvent): void {
+    this.#services.seek(this.#timeAt(event));
+  }
+
+  #timeAt(event: PointerEvent): number {
     const time = this.#scale().time(event.clientX - this.root.getBoundingClientRect().left);
-    this.#services.seek(Math.min(danceDuration(this.#store.getState()), Math.max(0, time)));
+    return Math.min(danceDuration(this.#store.getState()), Math.max(0, time));
   }
 }
 
