@@ -140,6 +140,12 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
   });
 
   await test.step('delete, undo and redo', async () => {
+    await take(page, older).focus();
+    for (let times = 0; times < 3; times++) await page.keyboard.down('Delete');
+    await page.keyboard.up('Delete');
+    await expect(takes(page), 'held, the key deletes one').toHaveCount(1);
+    await page.keyboard.press('Control+z');
+    await expect(takes(page)).toHaveCount(2);
     await take(page, older).hover();
     await page.getByRole('button', { name: `Delete ${older}` }).click();
     await expect(takes(page)).toHaveCount(1);

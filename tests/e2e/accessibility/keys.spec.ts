@@ -34,6 +34,25 @@ test('letters as shortcuts can be switched off, also for later visits; Space and
   expect(await loops()).toBe(true);
 });
 
+test('a letter that is held acts once, an arrow goes on', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await page.keyboard.press('Home');
+  const hold = async (key: string): Promise<void> => {
+    for (let times = 0; times < 4; times++) await page.keyboard.down(key);
+    await page.keyboard.up(key);
+  };
+  for (const key of ['l', 'n', 's']) await hold(key);
+  expect(
+    await app.read(({ playback, overlays, takes }) => [playback.loop, overlays.contacts, takes[0]?.starred]),
+  ).toEqual([true, true, true]);
+  await hold('ArrowRight');
+  expect(await app.read(({ playback }) => playback.time)).toBeCloseTo(4 / 30, 5);
+});
+
 test('Space plays after a choice by the mouse, and opens a menu that was reached by keyboard', async ({
   page,
 }) => {

@@ -148,6 +148,19 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   },
 };
 
+/** Keys that act again while they are held: they move or zoom something bit by bit. */
+const REPEATING: ReadonlySet<string> = new Set([
+  'ArrowLeft',
+  'ArrowRight',
+  '+',
+  '=',
+  '-',
+  ',',
+  '.',
+  'u',
+  'j',
+]);
+
 interface KeyPress {
   readonly store: Store;
   readonly services: Services;
@@ -160,11 +173,13 @@ interface KeyPress {
 /** Does what a key is for; false for a key that does nothing. */
 function press({ key, shiftKey: shift, repeat }: KeyboardEvent, store: Store, services: Services): boolean {
   const overlay = OVERLAYS.find((one) => one.key === key.toUpperCase());
-  const action = ACTIONS[key.length === 1 ? key.toLowerCase() : key];
+  const name = key.length === 1 ? key.toLowerCase() : key;
+  const action = ACTIONS[name];
   const state = store.getState();
-  if (overlay) toggleOverlay(store, overlay.what);
-  // Held, Space plays or stops once.
-  else if (key !== ' ' || !repeat) action?.({ store, services, state, shift, time: state.playback.time });
+  if (!repeat || REPEATING.has(name)) {
+    if (overlay) toggleOverlay(store, overlay.what);
+    else action?.({ store, services, state, shift, time: state.playback.time });
+  }
   return overlay !== undefined || action !== undefined;
 }
 

@@ -123,11 +123,12 @@ export class TakeList {
         return true;
       case 'Delete':
       case 'Backspace':
-        apply(this.#store, takeDeleted(id));
+        // Held, it would delete all.
+        if (!event.repeat) apply(this.#store, takeDeleted(id));
         return true;
       case 's':
       case 'S':
-        apply(this.#store, takeStarred(id));
+        if (!event.repeat) apply(this.#store, takeStarred(id));
         return true;
     }
     return false;
