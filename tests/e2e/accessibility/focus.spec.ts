@@ -32,6 +32,10 @@ test('a button that is disabled by its own press keeps the focus and does nothin
     await expect(zoomIn).toBeFocused();
     await press('Show the whole dance');
     await expect(page.getByRole('button', { name: 'Show the whole dance' })).toBeFocused();
+    // Disabled, enabled and disabled again while it has the focus.
+    await page.keyboard.press('+');
+    await page.keyboard.press('Enter');
+    await expect(page.getByRole('button', { name: 'Show the whole dance' })).toBeDisabled();
     await page.keyboard.press('Tab');
     await expect(page.getByRole('button', { name: 'Show the whole dance' })).toHaveJSProperty(
       'disabled',

@@ -51,14 +51,11 @@ export function textButton(
  */
 export function setDisabled(button: HTMLButtonElement, disabled: boolean): void {
   const held = disabled && button === document.activeElement;
-  if (held && !isHeld(button))
-    button.addEventListener(
-      'blur',
-      () => {
-        setDisabled(button, isHeld(button));
-      },
-      { once: true },
-    );
+  button.onblur = held
+    ? () => {
+        setDisabled(button, true);
+      }
+    : null;
   button.disabled = disabled && !held;
   setAttribute(button, 'aria-disabled', held && 'true');
 }
