@@ -42,7 +42,7 @@ export function videoFileName(named: FileNameParts, size: string, container: str
 
 /** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_at12.4s_1080p.png`. */
 export function pictureFileName(named: FileNameParts, size: string, seconds: number): string {
-  return `${[...inputParts(named.inputs), ...settingsParts(named), `at${seconds.toFixed(1)}s`, size].join('_')}.png`;
+  return `${[...inputParts(named.inputs), ...settingsParts(named), `at${tenths(seconds)}s`, size].join('_')}.png`;
 }
 
 function partParts({ part }: FileNameParts): string[] {

@@ -61,7 +61,7 @@ test('a video’s name ends with its size', () => {
 });
 
 test('a picture’s name ends with its moment and size', () => {
-  expect(pictureFileName({ inputs, footLock: true, take: '' }, '1080p', 12.34)).toBe(
+  expect(pictureFileName({ inputs, footLock: true, take: '' }, '1080p', 12.38)).toBe(
     'descarga_leader-0412_s1204_c1.20-f0.60-m3.00_footlock_at12.3s_1080p.png',
   );
 });
