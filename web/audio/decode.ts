@@ -1,5 +1,4 @@
 import { AppError } from '../common/error';
-import { isPlaylist, PLAYLIST_HEAD_BYTES } from './playlist';
 
 /**
  * Hz at which songs are decoded and played: a common rate, and so far above the recipe's that the browser's own
@@ -12,6 +11,12 @@ const MAX_DURATION = 15 * 60;
 
 /** How long to wait for the duration in a file's header. */
 const HEADER_TIMEOUT_MS = 5000;
+
+/** Bytes that `isPlaylist` looks at. */
+const PLAYLIST_HEAD_BYTES = 512;
+
+const PLAYLIST =
+  /^(#EXT|\[playlist\]|<\?xml[^]*<playlist|<playlist|<asx|<smil|<mpd|(https?|file|rtsp):\/\/)/i;
 
 /** A song as the browser decodes it. */
 export interface DecodedSong {
@@ -64,6 +69,16 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
     buffer.getChannelData(index),
   );
   return { channels, sampleRate: buffer.sampleRate, duration: buffer.duration };
+}
+
+/**
+ * Whether a file is a list of songs (M3U, HLS, PLS, XSPF, ASX) instead of a song. A media element that gets one asks the
+ * addresses in it.
+ *
+ * @param head its first bytes
+ */
+export function isPlaylist(head: Uint8Array): boolean {
+  return PLAYLIST.test(new TextDecoder().decode(head).trimStart());
 }
 
 /** @throws {AppError} too-long */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { analyse } from '../../../web/audio/analyse';
-import { isPlaylist } from '../../../web/audio/playlist';
+import { isPlaylist } from '../../../web/audio/decode';
 
 const bytes = (text: string): Uint8Array => new TextEncoder().encode(text);
 

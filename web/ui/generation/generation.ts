@@ -7,11 +7,11 @@ import {
   type Preview as ModelPreview,
   secondsNow,
 } from '../../model/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { differOnlyInWeights, guidanceMatrix, readyInputs, sameInputs } from '../store/selectors';
 import { currentInputs } from '../store/take';
-import { sameBody, withFrames } from './with-frames';
 import { modelIdentity, type Inputs, type Reaction } from '../store/reaction';
 import { firstVisitEnded } from '../store/actions/files';
 import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
@@ -238,6 +238,26 @@ function showPreview(store: Store, { motion, locked, from }: ModelPreview): void
       locked: withFrames(shown.locked, locked, from),
     }),
   );
+}
+
+/** A motion with some frames replaced by those of a part of the same body, from the frame `from` on. */
+function withFrames(whole: SolvedMotion, part: SolvedMotion, from: number): SolvedMotion {
+  const replaced = (values: Float32Array, newer: Float32Array): Float32Array => {
+    const copy = values.slice();
+    copy.set(newer, (values.length / whole.frames) * from);
+    return copy;
+  };
+  return {
+    ...whole,
+    root: replaced(whole.root, part.root),
+    rotations: replaced(whole.rotations, part.rotations),
+    positions: replaced(whole.positions, part.positions),
+  };
+}
+
+/** Whether two motions have the same skeleton. */
+function sameBody(a: SolvedMotion, b: SolvedMotion): boolean {
+  return a.offsets.every((value, i) => value === b.offsets[i]);
 }
 
 function sameFiles(reaction: Reaction | null, { leader, song }: Inputs): boolean {
