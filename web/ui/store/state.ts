@@ -23,7 +23,7 @@ export type Letter = 'A' | 'B';
 export type AutosaveStatus = 'stored' | 'full' | 'refused' | 'elsewhere' | 'newer';
 
 /** A take of an earlier visit whose leader and song are still being read. */
-export interface ComingTake {
+interface ComingTake {
   readonly id: string;
   readonly title: string;
 }

@@ -1,7 +1,7 @@
 import { rememberFocus } from './dom';
 
 /** A place for one dialog at a time, which takes the focus and gives it back. */
-export interface DialogPlace {
+interface DialogPlace {
   /**
    * Shows a dialog in the place of the one that is shown.
    * @param first selector of what gets the focus
