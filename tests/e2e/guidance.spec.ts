@@ -127,6 +127,20 @@ test('the seed is chosen at random, locked and kept, and swapped roles are named
     app.until(({ job, reaction, settings }) => !job && reaction?.inputs.settings === settings);
 
   const first = await made();
+  const seed = page.getByRole('spinbutton', { name: 'Seed' });
+  await seed.fill('77');
+  await page.keyboard.press('Enter');
+  await done();
+  expect(await made()).toBe(77);
+  // What is being typed is undone letter by letter; what has been typed, with the dance that it made.
+  await page.keyboard.type('8');
+  await page.keyboard.press('Control+z');
+  expect(await app.read(({ settings }) => settings?.seed)).toBe(77);
+  await expect(seed).toHaveValue('77');
+  await page.keyboard.press('Control+z');
+  expect(await made()).toBe(first);
+  await expect(seed).toHaveValue(String(first));
+
   await again.click();
   await app.until(({ reaction }, seed) => reaction && reaction.inputs.settings.seed !== seed, first);
   await done();

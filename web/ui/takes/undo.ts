@@ -1,5 +1,6 @@
 import { iconButton, setDisabled } from '../widgets/button';
 import type { IconName } from '../widgets/icons';
+import { isUnfinished } from '../widgets/unfinished-number';
 import type { Mount, Services } from '../store/services';
 import { apply, type Store, watchAll } from '../store/store';
 import { askedLast } from '../store/history/asked';
@@ -24,16 +25,20 @@ export const mountUndo: Mount = (root, store, services) => {
   );
 };
 
-/** Undo and redo by Ctrl or Command with Z, Shift Z and Y; text fields have their own undo. */
+/** Undo and redo by Ctrl or Command with Z, Shift Z and Y; texts, and numbers that are being typed, have their own. */
 export function mountUndoKeys(store: Store, services: Pick<Services, 'undo'>): void {
   window.addEventListener('keydown', (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-    if (event.target instanceof Element && event.target.matches('input:not([type="range"]), textarea'))
-      return;
+    if (hasOwnUndo(event.target)) return;
     const key = event.key.toLowerCase();
     if (key === 'z' && !event.shiftKey) services.undo();
     else if (key === 'z' || (key === 'y' && !event.shiftKey)) apply(store, redone());
     else return;
     event.preventDefault();
   });
+}
+
+function hasOwnUndo(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement && target.type === 'number') return isUnfinished(target);
+  return target instanceof Element && target.matches('input[type="text"], textarea');
 }

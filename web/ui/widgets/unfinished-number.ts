@@ -22,6 +22,7 @@ export function takeBackOnEscape(input: HTMLInputElement): void {
   });
 }
 
-function isUnfinished(input: HTMLInputElement): boolean {
+/** Whether a number is being typed. */
+export function isUnfinished(input: HTMLInputElement): boolean {
   return input.value !== input.defaultValue || input.validity.badInput;
 }
