@@ -53,6 +53,18 @@ test('a letter that is held acts once, an arrow goes on', async ({ page }) => {
   expect(await app.read(({ playback }) => playback.time)).toBeCloseTo(4 / 30, 5);
 });
 
+test('signs that a keyboard types with AltGr are shortcuts too', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  // As Windows reports it; with Ctrl and Alt alone it is a key of the system or of a screen reader.
+  const altGr = { key: ']', ctrlKey: true, altKey: true, modifierAltGraph: true };
+  await page.dispatchEvent('body', 'keydown', altGr);
+  expect(await app.read(({ playback }) => playback.speed)).toBe(1.25);
+  await page.dispatchEvent('body', 'keydown', { ...altGr, modifierAltGraph: false });
+  expect(await app.read(({ playback }) => playback.speed)).toBe(1.25);
+});
+
 test('Space plays after a choice by the mouse, and opens a menu that was reached by keyboard', async ({
   page,
 }) => {

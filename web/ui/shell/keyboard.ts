@@ -36,7 +36,9 @@ export function mountKeyboard(store: Store, services: Services): void {
     (target instanceof HTMLButtonElement || target instanceof HTMLSelectElement) &&
     (byKey || target.closest(DIALOGS) !== null);
   const onKey = (event: KeyboardEvent): void => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    // Many keyboards type [ and ] with AltGr, which Windows reports as Ctrl and Alt.
+    const typesSign = event.key.length === 1 && event.getModifierState('AltGraph');
+    if ((event.ctrlKey || event.metaKey || event.altKey) && !typesSign) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
     if (flipsOnStage(event, target, store)) {
       event.preventDefault();
