@@ -65,7 +65,7 @@ test('signs that a keyboard types with AltGr are shortcuts too', async ({ page }
   expect(await app.read(({ playback }) => playback.speed)).toBe(1.25);
 });
 
-test('Space plays after a choice by the mouse, and opens a menu that was reached by keyboard', async ({
+test('keys are shortcuts after a choice by mouse, and belong to a menu that was reached by keyboard', async ({
   page,
 }) => {
   const app = new App(page);
@@ -80,6 +80,9 @@ test('Space plays after a choice by the mouse, and opens a menu that was reached
   await page.keyboard.press('ArrowDown');
   await page.keyboard.press('Enter');
   await app.until(({ playback }) => playback.speed === 1.25);
+  // They would choose 1× and 2×.
+  for (const key of ['l', '1', '2']) await page.keyboard.press(key);
+  expect(await app.read(({ playback }) => [playback.loop, playback.speed])).toEqual([true, 1.25]);
   await page.keyboard.press('Space');
   expect(await playing()).toBe(true);
   await page.keyboard.press('Space');
@@ -90,6 +93,9 @@ test('Space plays after a choice by the mouse, and opens a menu that was reached
   await expect(speed).toBeFocused();
   await page.keyboard.press('Space');
   expect(await playing()).toBe(false);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('2');
+  expect(await app.read(({ playback }) => playback.speed)).toBe(2);
 });
 
 test.describe('on a small window, where the processor draws', () => {

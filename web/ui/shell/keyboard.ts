@@ -24,8 +24,7 @@ const DIALOGS = '[role="dialog"], [role="alertdialog"]';
 
 /**
  * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider or a choice that
- * has the focus; Space sets a checkbox, and presses a button or opens a menu in a dialog or where the focus came to it by
- * keyboard.
+ * has the focus; Space sets a checkbox, and presses a button in a dialog or one that the focus came to by keyboard.
  */
 export function mountKeyboard(store: Store, services: Services): void {
   /** Whether the last press was of a key, and whether it was when the focus came to where it is. */
@@ -67,6 +66,11 @@ export function mountKeyboard(store: Store, services: Services): void {
     if (target !== focused) byKey = keyIsLast;
     focused = target;
   };
+  // With the focus, a menu that was chosen from by mouse would take letters and Space for the next choice.
+  const onChoice = ({ target }: Event): void => {
+    if (target instanceof HTMLSelectElement && !isPressedByKeys(target)) target.blur();
+  };
+  window.addEventListener('change', onChoice);
   window.addEventListener('keydown', onKey);
   window.addEventListener('keyup', onRelease);
   window.addEventListener('focusin', onFocus);
@@ -76,8 +80,7 @@ export function mountKeyboard(store: Store, services: Services): void {
 
 /** Whether an element does something of its own with a key: typing, or to be chosen or moved. */
 function ownsKey(element: HTMLElement, key: string): boolean {
-  if (element.matches('input[type="number"], input[type="text"], textarea')) return true;
-  if (element.matches('select')) return key !== ' ';
+  if (element.matches('input[type="number"], input[type="text"], select, textarea')) return true;
   if (/^(Arrow|Home|End|Page)/.test(key))
     return element.matches('input[type="range"], input[type="radio"], [role="radio"]');
   return key === ' ' && element.matches('input[type="checkbox"], input[type="radio"], summary');
