@@ -51,6 +51,12 @@ test('a part is looped: drawn on the ruler, changed by its handles and by keys',
   expect(await app.read(({ playback }) => playback.loop)).toBe(true);
   await expect(page.getByRole('button', { name: /^Loop 0:0/ })).toHaveAttribute('aria-pressed', 'true');
 
+  await drag(page, await place(page, /^Leader/, 0.21, RULER), await place(page, /^Leader/, 0.62, RULER));
+  expect(await page.evaluate('getSelection().toString()'), 'no text is selected').toBe('');
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  expect(await region()).toEqual(drawn);
+
   await page.getByRole('slider', { name: 'Loop end' }).focus();
   await page.keyboard.press('ArrowLeft');
   expect((await region())?.to).toBeCloseTo((drawn?.to ?? 0) - 1 / 30, 3);
