@@ -84,4 +84,18 @@ test('the dance before a change stays as a ghost for two seconds, and that of be
     })();
   })`);
   expect(gone(await ghost(page))).toBe(true);
+
+  await test.step('the ghost of a compared take is named by its letter', async () => {
+    const named = (name: string) => page.getByRole('listitem').filter({ hasText: name });
+    await page
+      .getByRole('button', { name: /^Use .* as B$/, disabled: false })
+      .last()
+      .click();
+    await expect(named('Take B')).toBeHidden();
+    await page.getByRole('button', { name: 'Ghost', exact: true }).click();
+    await expect(named('Take B')).toBeVisible();
+    await page.keyboard.press('b');
+    await expect(named('Take A')).toBeVisible();
+    await expect(named('Take B')).toBeHidden();
+  });
 });

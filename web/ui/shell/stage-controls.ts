@@ -1,7 +1,8 @@
 import { iconButton, textButton } from '../widgets/button';
-import { el } from '../widgets/dom';
+import { el, setText } from '../widgets/dom';
 import { coarseMotion, earlierMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
+import { otherLetter, otherTake } from '../store/take';
 import { mountOverlayMenu } from './overlay-menu';
 import { radioGroup } from '../widgets/radio-group';
 import { mountUndo } from '../takes/undo';
@@ -30,10 +31,12 @@ const mountStageTools: Mount = (root, store, services) => {
 
 /** The dancers' names in their colours; those of ghosts while they are seen. */
 const mountLegend: Mount = (root, store) => {
-  const item = (role: string, dot: string, name: string): HTMLElement =>
+  const item = (role: string, dot: string, name: Node | string): HTMLElement =>
     el('li', { class: role }, el('span', { class: dot }), name);
   const coarse = item('made', 'dot hollow', 'Coarse only');
   const earlier = item('made', 'dot hollow', 'Before');
+  const otherName = el('span');
+  const other = item('made', 'dot hollow', otherName);
   const legend = el(
     'ul',
     { class: 'over legend' },
@@ -41,14 +44,17 @@ const mountLegend: Mount = (root, store) => {
     item('reactor', 'dot', 'Reactor'),
     coarse,
     earlier,
+    other,
   );
   root.append(legend);
   watchAll(
     store,
-    (state) => [coarseMotion(state), earlierMotion(state)],
+    (state) => [coarseMotion(state), earlierMotion(state), state.compare, state.letter, otherTake(state)],
     (state) => {
       coarse.hidden = coarseMotion(state) === null;
       earlier.hidden = earlierMotion(state) === null;
+      other.hidden = state.compare !== 'ghost' || otherTake(state) === null;
+      setText(otherName, `Take ${otherLetter(state.letter)}`);
     },
   );
 };
