@@ -177,6 +177,7 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     for (const [seed, count] of [
       ['78', 4],
       ['79', 5],
+      ['80', 6],
     ] as const) {
       await page.getByRole('spinbutton', { name: 'Seed' }).fill(seed);
       await page.keyboard.press('Enter');
@@ -186,6 +187,13 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(list).toHaveClass('takes below');
     await takes(page).last().focus();
     await expect(list).toHaveClass('takes above');
+  });
+
+  await test.step('a long list leaves the switches above it free', async () => {
+    await page.setViewportSize({ width: 1440, height: 900 });
+    const lock = (await page.getByRole('switch', { name: 'Foot lock' }).boundingBox())!;
+    const section = (await page.locator('.takes-sec').boundingBox())!;
+    expect(lock.y + lock.height).toBeLessThanOrEqual(section.y);
   });
 });
 
