@@ -36,6 +36,19 @@ for (const [name, width, height] of [
     expect(await page.evaluate<number>('document.documentElement.scrollWidth')).toBeLessThanOrEqual(width);
   });
 
+test('the first words are whole in a low window, as when the page is twice as large', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  for (const height of [580, 561, 540, 501, 480]) {
+    await page.setViewportSize({ width: 960, height });
+    const stage = (await page.locator('#stage').boundingBox())!;
+    const first = (await page.getByRole('heading', { name: /Drop a video/ }).boundingBox())!;
+    const last = (await page.getByRole('button', { name: 'How it works' }).boundingBox())!;
+    expect(first.y, String(height)).toBeGreaterThanOrEqual(stage.y);
+    expect(last.y + last.height, String(height)).toBeLessThanOrEqual(stage.y + stage.height);
+  }
+});
+
 test('the browser can install the page', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
