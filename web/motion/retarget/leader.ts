@@ -162,7 +162,7 @@ function tooShort({ frames, truncated }: MotionSource, fps: number): AppError {
       'The file is incomplete: download, copy or export it again.',
     );
   return new AppError(
-    'too-few-frames',
+    'bad-frame-time',
     `At ${Number(fps.toFixed(2))} frames per second the ${frames} frames last less than two frames at ${FPS}.`,
     'Choose a longer dance, or correct the frame rate.',
   );

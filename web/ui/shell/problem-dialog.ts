@@ -48,7 +48,7 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
     },
     el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
     el('p', { text: hintOf(problem, state), attributes: { id: 'problem-hint' } }),
-    NEEDS_RATE.has(problem.code) && state.refusedLeader
+    problem.code === 'bad-frame-time' && state.refusedLeader
       ? rateRow(state.refusedLeader, store, services)
       : null,
     el(
@@ -78,9 +78,6 @@ export function hintOf(problem: Problem, state: Pick<AppState, 'autosave'>): str
     : 'Song, leader, takes and settings stay.';
   return `${problem.hint} ${kept}`;
 }
-
-/** Failures to read a leader that another frame rate mends. */
-const NEEDS_RATE: ReadonlySet<string> = new Set(['bad-frame-time', 'too-few-frames']);
 
 /** The frame rate by hand; choosing one reads the file again. */
 function rateRow(source: LeaderSource, store: Store, services: Services): HTMLElement {

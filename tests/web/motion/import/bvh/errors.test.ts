@@ -232,7 +232,7 @@ describe('time', () => {
   });
   test('a few frames at a high rate', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 3, frameTime: '0.005' });
-    expectFailure(text, 'too-few-frames', 'less than two frames');
+    expectFailure(text, 'bad-frame-time', 'less than two frames');
   });
 });
 
