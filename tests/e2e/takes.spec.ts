@@ -190,10 +190,16 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
   });
 
   await test.step('a long list leaves the switches above it free', async () => {
-    await page.setViewportSize({ width: 1440, height: 900 });
-    const lock = (await page.getByRole('switch', { name: 'Foot lock' }).boundingBox())!;
-    const section = (await page.locator('.takes-sec').boundingBox())!;
-    expect(lock.y + lock.height).toBeLessThanOrEqual(section.y);
+    for (const [width, height] of [
+      [1440, 900],
+      [1366, 768],
+      [1280, 720],
+    ] as const) {
+      await page.setViewportSize({ width, height });
+      const lock = (await page.getByRole('switch', { name: 'Foot lock' }).boundingBox())!;
+      const section = (await page.locator('.takes-sec').boundingBox())!;
+      expect(lock.y + lock.height, String(height)).toBeLessThanOrEqual(section.y);
+    }
   });
 });
 
