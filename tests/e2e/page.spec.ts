@@ -49,6 +49,16 @@ test('the first words are whole in a low window, as when the page is twice as la
   }
 });
 
+test('the greatest seed is read whole in its field', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.until(({ settings }) => settings);
+  const seed = page.getByRole('spinbutton', { name: 'Seed' });
+  await seed.fill(String(2 ** 32 - 1));
+  await page.keyboard.press('Enter');
+  expect(await seed.evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)).toBe(0);
+});
+
 test('the browser can install the page', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
