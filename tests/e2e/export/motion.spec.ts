@@ -112,4 +112,11 @@ test('leader, reactor or both are saved in four formats with their metadata', as
     await expect(menu.getByRole('button', { name: /NPZ/ })).toBeFocused();
     await expect(menu.getByRole('radio', { name: 'Both' })).toBeChecked();
   });
+
+  await test.step('of a file of both the bar says which dancer was read, and that there is another', async () => {
+    const buffer = Buffer.from(await bytes(await save('NPZ')));
+    await page.keyboard.press('Escape');
+    await app.chooseLeader({ name: 'both.npz', mimeType: '', buffer });
+    await expect(page.getByRole('button', { name: /^Leader: both\.npz .*leader \(1 of 2\)/ })).toBeVisible();
+  });
 });

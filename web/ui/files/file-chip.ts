@@ -1,3 +1,4 @@
+import { partText } from './import-report';
 import { loadedRole, roleName } from '../store/roles';
 import { tempoText } from '../store/counting';
 import { duration } from '../store/format';
@@ -83,7 +84,12 @@ function describe(state: AppState, side: InputKind): ChipContent {
   if (side === 'leader' && state.leader) {
     const { name, label, file } = state.leader;
     const { clip, report } = file;
-    const facts = [duration(clip.frames / clip.fps), rateText(report.sourceFps, clip.fps)];
+    const facts = [
+      duration(clip.frames / clip.fps),
+      rateText(report.sourceFps, clip.fps),
+      // Another one is chosen in the import report.
+      partText(report),
+    ];
     return { name, details: joined(...facts, label), ...plain };
   }
   return { name: null, details: KINDS[side], ...plain };

@@ -120,7 +120,7 @@ function leaderFacts(state: AppState, store: Store, services: Services): HTMLEle
     head,
     ...length,
     ...fact('Frame rate', rateSelect(leader, services)),
-    ...fact('Format', formatText(report)),
+    ...fact('Format', [report.format, partText(report)].filter(Boolean).join(', ')),
     ...fact('Skeleton', `${report.convention}, ${Math.round(100 * report.confidence)} % certain`),
     ...fact('Joints', jointText(report)),
     ...fact('Units', `${report.unit}, ${report.upAxis} up`),
@@ -161,8 +161,9 @@ function importButton(store: Store): HTMLElement {
   );
 }
 
-function formatText({ format, parts, part }: LoadedLeader['file']['report']): string {
-  return parts.length > 1 ? `${format}, ${parts[part] ?? ''} (${part + 1} of ${parts.length})` : format;
+/** Which of a file's clips or dancers was read; null where there is one. */
+export function partText({ parts, part }: LoadedLeader['file']['report']): string | null {
+  return parts.length > 1 ? `${parts[part] ?? ''} (${part + 1} of ${parts.length})` : null;
 }
 
 /** The file's frame rate; choosing another one reads the file again. */
