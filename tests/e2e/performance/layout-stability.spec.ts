@@ -86,10 +86,11 @@ for (const [width, height] of [
     await expectStable('the download menu closes', NOTHING);
 
     if (width < 761) return;
-    await page
-      .getByRole('button', { name: /^Use .* as B$/ })
-      .last()
-      .click();
+    const last = page.getByRole('button', { name: /^Use .* as B$/ }).last();
+    // Where the list is low it is scrolled to it.
+    await last.scrollIntoViewIfNeeded();
+    await watch.mark();
+    await last.click();
     await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeVisible();
     await expectStable('a comparison', NOTHING);
   });
