@@ -42,6 +42,14 @@ def test_own_names_come_back_joint_for_joint(
     np.testing.assert_allclose(read_bvh(path).motion, put_on_floor(dancer.positions), atol=1e-4)
 
 
+def test_the_joints_of_a_file_decide_together_whether_positions_hold_the_offset(
+    tmp_path: Path, dancer: MadeDancer
+) -> None:
+    """The hips dance three metres from where their OFFSET has them, so alone they would have it added."""
+    path = write_bvh(tmp_path / "a.bvh", dancer, "own", unit=0.01, hips_offset=(0, 95, 300))
+    np.testing.assert_allclose(read_bvh(path).motion, put_on_floor(dancer.positions), atol=1e-4)
+
+
 @pytest.mark.parametrize("convention", [name for name in NAMES if name != "own"])
 def test_other_naming_conventions_find_the_limbs_and_fill_the_trunk(
     tmp_path: Path, dancer: MadeDancer, convention: str

@@ -89,8 +89,13 @@ def write_bvh(
     z_up: bool = False,
     fps: float = 30,
     without: tuple[str, ...] = (),
+    hips_offset: tuple[float, float, float] | None = None,
 ) -> Path:
-    """Writes a dancer in a convention's names, without some joints. unit: metres per unit of the file."""
+    """Writes a dancer in a convention's names, without some joints. unit: metres per unit of the file.
+
+    hips_offset: OFFSET of the hips in the file's unit, where they hang on a root that stands still. All joints have
+    position channels then, which hold the OFFSET.
+    """
     names = NAMES[convention]
     kept = [j for j, joint in enumerate(JOINTS) if joint not in without]
     order: list[int] = []
@@ -98,11 +103,13 @@ def write_bvh(
     def block(joint: int, depth: int) -> list[str]:
         order.append(joint)
         tab = "\t" * depth
-        kind = "ROOT" if joint == 0 else "JOINT"
-        place = "Xposition Yposition Zposition " if joint == 0 else ""
+        kind = "ROOT" if joint == 0 and hips_offset is None else "JOINT"
+        placed = joint == 0 or hips_offset is not None
+        place = "Xposition Yposition Zposition " if placed else ""
+        offset = dancer.offsets[joint] / unit if joint or hips_offset is None else hips_offset
         lines = [f"{tab}{kind} {names[JOINTS[joint]]}", f"{tab}{{"]
-        lines.append(f"{tab}\tOFFSET " + " ".join(f"{v / unit:.6f}" for v in dancer.offsets[joint]))
-        lines.append(f"{tab}\tCHANNELS {6 if joint == 0 else 3} {place}Zrotation Xrotation Yrotation")
+        lines.append(f"{tab}\tOFFSET " + " ".join(f"{v:.6f}" for v in offset))
+        lines.append(f"{tab}\tCHANNELS {6 if placed else 3} {place}Zrotation Xrotation Yrotation")
         children = [j for j in kept if PARENTS[j] == joint]
         for child in children:
             lines += block(child, depth + 1)
@@ -111,6 +118,8 @@ def write_bvh(
         return [*lines, f"{tab}}}"]
 
     skeleton = ["HIERARCHY", *block(0, 0)]
+    if hips_offset is not None:
+        skeleton = ["HIERARCHY", "ROOT Reference", "{", "OFFSET 0 0 0", "CHANNELS 0", *skeleton[1:], "}"]
     root, angles = dancer.root / unit, dancer.angles.copy()
     if z_up:
         root = np.stack([root[:, 0], -root[:, 2], root[:, 1]], axis=1)
@@ -118,7 +127,12 @@ def write_bvh(
             "ZXY", angles[:, 0], degrees=True
         )
         angles[:, 0] = turned.as_euler("ZXY", degrees=True)
-    rows = np.hstack([root, *(angles[:, joint] for joint in order)])
+    columns = [root, angles[:, 0]]
+    for joint in order[1:]:
+        if hips_offset is not None:
+            columns.append(np.tile(dancer.offsets[joint] / unit, (len(root), 1)))
+        columns.append(angles[:, joint])
+    rows = np.hstack(columns)
     motion = [
         "MOTION",
         f"Frames: {len(rows)}",

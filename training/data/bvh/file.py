@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +15,8 @@ _CHANNELS = ("xposition", "yposition", "zposition", "xrotation", "yrotation", "z
 _MAX_NODES = 1000
 _MAX_VALUES = 10_000_000
 _MAX_VALUE = 1e7
+# Most frames in which it is looked what position channels hold.
+_COMPARED_FRAMES = 200
 # As on the page, the word alone: joints may have it in their names.
 _MOTION_LINE = re.compile(r"^[ \t]*MOTION[ \t]*$", re.IGNORECASE | re.MULTILINE)
 FRAME_RATES = (5.0, 1000.0)
@@ -36,11 +39,15 @@ class Node:
 
 @dataclass(frozen=True, eq=False)
 class BvhFile:
-    """The skeleton, the channel values (frames, channels) and the frame rate as stated."""
+    """The skeleton, the channel values (frames, channels) and the frame rate as stated.
+
+    with_offsets: whether position channels below the root hold the OFFSET.
+    """
 
     nodes: list[Node]
     values: np.ndarray
     fps: float
+    with_offsets: bool
 
 
 def _read_channels(words: list[str], at: int, name: str, path: Path) -> tuple[str, ...]:
@@ -134,7 +141,7 @@ def parse_bvh(path: Path | str) -> BvhFile:
         raise ValueError(f"{path}: the file is cut off") from error
     except ValueError as error:
         raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error
-    return BvhFile(nodes, values, fps)
+    return BvhFile(nodes, values, fps, _with_offsets(nodes, values))
 
 
 def _resample_times(frames: int, fps: float, to_fps: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -146,21 +153,48 @@ def _resample_times(frames: int, fps: float, to_fps: float) -> tuple[np.ndarray,
     return before, np.minimum(before + 1, frames - 1), at - before
 
 
-def _translations(node: Node, values: np.ndarray) -> np.ndarray:
+def _columns(nodes: list[Node]) -> Iterator[tuple[Node, slice]]:
+    """Each node with its columns of the channel values."""
+    first = 0
+    for node in nodes:
+        yield node, slice(first, first + len(node.channels))
+        first += len(node.channels)
+
+
+def _has_position(node: Node) -> bool:
+    return any(channel.endswith("position") for channel in node.channels)
+
+
+def _positions(node: Node, values: np.ndarray) -> np.ndarray:
+    """(frames, 3) of the position channels, 0 along an axis without one. values: (frames, channels) of the node."""
+    given = np.zeros((len(values), 3))
+    for k, channel in enumerate(node.channels):
+        if channel.endswith("position"):
+            given[:, "xyz".index(channel[0])] = values[:, k]
+    return given
+
+
+def _with_offsets(nodes: list[Node], values: np.ndarray) -> bool:
+    """Whether position channels below the root hold the whole translation, instead of what is added to each OFFSET.
+
+    Programs disagree. As on the page (web/motion/import/bvh/poses.ts) every joint votes for the reading that stays
+    nearer to its OFFSET, since a joint hardly moves against its parent; hips that walk away are outvoted.
+    """
+    some = values[:: -(-len(values) // _COMPARED_FRAMES)]
+    votes = 0.0
+    for node, columns in _columns(nodes):
+        if node.parent >= 0 and _has_position(node):
+            given = _positions(node, some[:, columns])
+            votes += np.sign(np.sum(given**2) - np.sum((given - node.offset) ** 2))
+    return votes > 0
+
+
+def _translations(node: Node, values: np.ndarray, with_offsets: bool) -> np.ndarray:
     """(frames, 3) translation from the parent. values: (frames, channels) of the node."""
-    offset = np.tile(np.array(node.offset), (len(values), 1))
-    moving = [k for k, channel in enumerate(node.channels) if channel.endswith("position")]
-    if not moving:
-        return offset
-    given = np.zeros_like(offset)
-    for k in moving:
-        given[:, "xyz".index(node.channels[k][0])] = values[:, k]
-    # Programs disagree whether position channels hold the whole translation or what is added to OFFSET. A joint hardly
-    # moves against its parent, so the reading that stays nearer to OFFSET is taken. The place of a root is the
-    # channels' own.
-    if node.parent < 0 or np.sum((given - offset) ** 2) < np.sum(given**2):
-        return given
-    return offset + given
+    given = _positions(node, values)
+    # The place of a root is the channels' own.
+    whole = _has_position(node) and (node.parent < 0 or with_offsets)
+    return given if whole else given + node.offset
 
 
 def _rotations(node: Node, values: np.ndarray) -> Rotation:
@@ -181,11 +215,9 @@ def world_motion(file: BvhFile, to_fps: float, fps: float | None = None) -> tupl
     before, after, share = _resample_times(len(file.values), fps or file.fps, to_fps)
     positions: list[np.ndarray] = []
     rotations: list[Rotation] = []
-    column = 0
-    for node in file.nodes:
-        values = file.values[:, column : column + len(node.channels)]
-        column += len(node.channels)
-        translation, rotation = _translations(node, values), _rotations(node, values)
+    for node, columns in _columns(file.nodes):
+        values = file.values[:, columns]
+        translation, rotation = _translations(node, values, file.with_offsets), _rotations(node, values)
         first, second = (Rotation.from_quat(rotation.as_quat()[frames]) for frames in (before, after))
         local = first * Rotation.from_rotvec((first.inv() * second).as_rotvec() * share[:, None])
         offset = translation[before] + (translation[after] - translation[before]) * share[:, None]

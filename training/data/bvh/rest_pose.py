@@ -5,6 +5,8 @@ The rule and its numbers are those of the page (web/motion/retarget/t-pose.ts).
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -38,9 +40,8 @@ def rest_frames(file: BvhFile) -> int:
     if len(file.values) < _MIN_COMPARED_FRAMES + 2:
         return 0
     found, _ = find_joints(file.nodes)
-    positions, rotations = world_motion(
-        BvhFile(file.nodes, file.values[: _COMPARED_FRAMES + 2], fps=1), to_fps=1
-    )
+    first = replace(file, values=file.values[: _COMPARED_FRAMES + 2], fps=1)
+    positions, rotations = world_motion(first, to_fps=1)
     pose = {name: positions[0, node] for name, node in found.items()}
     if not _is_t_pose(pose) and not _is_rest_pose(file, found, pose, rotations):
         return 0
