@@ -16,7 +16,6 @@ from pathlib import Path
 
 import numpy as np
 
-from export.node import in_body
 from export.runtime import Exported, open_model
 from training.command_line import run_program
 from training.config import FPS
@@ -29,6 +28,7 @@ from training.data.step_tempo import duet_tempo
 from training.diffusion.react import Request, react
 from training.evaluation.report.filmstrip import filmstrip
 from training.motion.floor import put_on_floor
+from training.motion.other_body import in_body
 from training.music.demo import Options as Song
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe

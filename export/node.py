@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
 from hashlib import blake2b
@@ -14,9 +13,8 @@ import numpy as np
 
 from export.manifest import quality_rules
 from training.evaluation.protocol import ReactorGenerator, Solver
+from training.motion.other_body import in_body, read_motion, run_solver, write_floats
 from training.music.recipe import AudioRecipe
-
-ROOT = Path(__file__).parents[1]
 
 
 def solve_with_node(
@@ -28,12 +26,12 @@ def solve_with_node(
     """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        beside, manifest = _write(folder / "beside", leader), folder / "manifest.json"
+        beside, manifest = write_floats(folder / "beside", leader), folder / "manifest.json"
         manifest.write_text(json.dumps({"quality": quality_rules(), "audio": AudioRecipe().to_dict()}))
-        song = [] if music is None else ["--song", _write(folder / "song", music)]
-        files = [_write(folder / str(index), motion) for index, motion in enumerate(motions)]
-        _run("--beside", beside, "--manifest", manifest, *song, *flags, *files)
-        return [_read(file, motion.shape) for file, motion in zip(files, motions, strict=True)]
+        song = [] if music is None else ["--song", write_floats(folder / "song", music)]
+        files = [write_floats(folder / str(index), motion) for index, motion in enumerate(motions)]
+        run_solver("--beside", beside, "--manifest", manifest, *song, *flags, *files)
+        return [read_motion(file, motion.shape) for file, motion in zip(files, motions, strict=True)]
 
 
 SOLVERS: dict[str, Solver] = {
@@ -42,14 +40,6 @@ SOLVERS: dict[str, Solver] = {
         motions, leader, music, "--foot-lock"
     ),
 }
-
-
-def in_body(motion: np.ndarray, body: Sequence[Sequence[float]]) -> np.ndarray:
-    """A motion (T, 22, 3) in another body, scaled to its height. body: rest offsets (22, 3), metres."""
-    with tempfile.TemporaryDirectory() as name:
-        offsets, file = _write(Path(name) / "body", np.array(body)), _write(Path(name) / "motion", motion)
-        _run("--body", offsets, file)
-        return _read(file, motion.shape)
 
 
 def in_training_bodies(
@@ -75,21 +65,3 @@ def in_training_bodies(
         return generate(leader, music, seed, **controls)
 
     return generate_in_bodies
-
-
-def _write(path: Path, values: np.ndarray) -> Path:
-    path.write_bytes(np.ascontiguousarray(values, dtype="<f4").tobytes())
-    return path
-
-
-def _read(path: Path, shape: tuple[int, ...]) -> np.ndarray:
-    return np.frombuffer(path.read_bytes(), dtype="<f4").reshape(shape).astype(np.float32)
-
-
-def _run(*arguments: str | Path) -> None:
-    """Runs tools/solve.mjs. Raises ValueError with what Node says where it fails."""
-    done = subprocess.run(
-        ["node", "tools/solve.mjs", *arguments], cwd=ROOT, check=False, capture_output=True, text=True
-    )
-    if done.returncode:
-        raise ValueError(f"tools/solve.mjs failed: {done.stderr or done.stdout}")

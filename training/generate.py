@@ -4,7 +4,8 @@
         --out runs/dance
 
 Writes leader.npy and reactor_SEED.npy, (T, 22, 3) metres at 30 fps, y up, which the page reads, and a filmstrip of each
-seed.
+seed. As on the page, the network gets the leader in the body of the training's leaders, which needs Node and the
+packages that `npm start` installs; a baseline gets it as it is.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from training.baselines.trained import load_baseline
-from training.checkpoint import load_model
+from training.checkpoint import load_model, read_card
 from training.command_line import run_program
 from training.config import FPS, check_limits
 from training.data.bvh.file import FRAME_RATES
@@ -26,6 +27,7 @@ from training.data.npz import read_npy
 from training.data.sources import read_duets
 from training.diffusion.react import Request, react
 from training.evaluation.report.filmstrip import filmstrip
+from training.motion.other_body import in_body
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
 
@@ -58,6 +60,8 @@ class Options:
     """Distance from the mean of several seeds; the model's default when left out."""
     fps: float | None = None
     """Frame rate of the BVH file where its header is wrong."""
+    leader_as_is: bool = False
+    """Give the network the leader as it is, for which Node is not needed; the partner may crouch beside another rig."""
 
     def __post_init__(self) -> None:
         kind = self.leader.suffix.lower()
@@ -88,14 +92,14 @@ def read_leader(options: Options) -> np.ndarray:
     return duets[options.duet].leader
 
 
-Generate = Callable[[np.ndarray, np.ndarray | None, int], np.ndarray]
-"""The reactor (T, 22, 3) of a leader (T, 22, 3), music (T', 54) and a seed."""
+Generate = Callable[[np.ndarray | None, int], np.ndarray]
+"""The reactor (T, 22, 3) to music (T', 54) and a seed."""
 
 
-def load_generator(options: Options) -> Generate:
-    """The checkpoint with the weights of the options.
+def load_generator(options: Options, leader: np.ndarray) -> Generate:
+    """The checkpoint with the weights of the options, beside a leader (T, 22, 3).
 
-    Raises ValueError for a weight that the checkpoint would ignore, and FileNotFoundError.
+    Raises ValueError for a weight that the checkpoint would ignore and as `in_body`, and FileNotFoundError.
     """
     if (options.checkpoint / "baseline.json").exists():
         given = [name for name in SAMPLING_OPTIONS if getattr(options, name) is not None]
@@ -104,31 +108,41 @@ def load_generator(options: Options) -> Generate:
             raise ValueError(
                 f"{options.checkpoint} is a baseline, which has no such control: leave {flags} out"
             )
-        return load_baseline(options.checkpoint).react
+        baseline = load_baseline(options.checkpoint)
+        return lambda music, seed: baseline.react(leader, music, seed)
     model = load_model(options.checkpoint)
+    known = None if options.leader_as_is else in_body(leader, training_body(options.checkpoint))
     coarse, fine = model.diffusion.guidance
     guidance = (
         coarse if options.coarse is None else options.coarse,
         fine if options.fine is None else options.fine,
     )
 
-    def generate(leader: np.ndarray, music: np.ndarray | None, seed: int) -> np.ndarray:
+    def generate(music: np.ndarray | None, seed: int) -> np.ndarray:
         weights = (options.steps, guidance, options.music_guidance, options.variety)
-        return react(model, Request(leader, music, seed, *weights))
+        return react(model, Request(leader, music, seed, *weights, condition_leader=known))
 
     return generate
 
 
+def training_body(checkpoint: Path) -> list[list[float]]:
+    """Rest offsets (22, 3), metres, of the training's leaders. Raises ValueError where the checkpoint has none."""
+    bodies = read_card(checkpoint).get("training_bodies")
+    if bodies is None:
+        raise ValueError(f"{checkpoint}/card.json has no training_bodies: add --leader-as-is")
+    return bodies["leader"]
+
+
 def main(options: Options) -> None:
-    generate = load_generator(options)
     leader = read_leader(options)
+    generate = load_generator(options, leader)
     recipe = AudioRecipe()
     music = features(load_audio(options.song, recipe), recipe) if options.song else None
 
     options.out.mkdir(parents=True, exist_ok=True)
     np.save(options.out / "leader.npy", leader.astype(np.float32))
     for seed in options.seeds:
-        reactor = generate(leader, music, seed)
+        reactor = generate(music, seed)
         np.save(options.out / f"reactor_{seed}.npy", reactor.astype(np.float32))
         filmstrip(leader, reactor, options.out / f"reactor_{seed}.png")
         print(f"seed {seed}: {len(reactor) / FPS:.1f} s", flush=True)

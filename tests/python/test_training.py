@@ -47,6 +47,7 @@ from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
 from training.loop.run import fast_precision
 from training.motion.floor import put_on_floor
+from training.motion.other_body import in_body
 from training.motion.skeleton import body_height
 
 
@@ -102,7 +103,12 @@ def test_a_dance_is_generated_as_asked(data: Path, trained: Path, tmp_path: Path
     leader = np.load(tmp_path / "leader.npy")
     for seed in given.seeds:
         request = Request(
-            leader, None, seed, guidance=(0.5, load_model(trained).diffusion.guidance[1]), variety=0.0
+            leader,
+            None,
+            seed,
+            guidance=(0.5, load_model(trained).diffusion.guidance[1]),
+            variety=0.0,
+            condition_leader=in_body(leader, read_card(trained)["training_bodies"]["leader"]),
         )
         reactor = np.load(tmp_path / f"reactor_{seed}.npy")
         assert reactor == pytest.approx(react(load_model(trained), request), abs=1e-6)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from export.evaluate import reactor_generator
-from export.node import SOLVERS, in_body, in_training_bodies, solve_with_node
+from export.node import SOLVERS, in_training_bodies, solve_with_node
 from export.runtime import open_model
 from tests.python.support.bodies import rest_pose, standing
 from tests.python.support.duets import made_duet
@@ -20,6 +20,7 @@ from training.data.made import made_dancer
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.errors import bone_variation
 from training.evaluation.metrics.penetration import depth as overlap_depth
+from training.motion.other_body import in_body
 from training.motion.rest_pose import rest_offsets
 from training.motion.skeleton import JOINTS, PARENTS, body_height
 from training.music.features import features, load_audio
