@@ -9,7 +9,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -38,10 +37,9 @@ from training.config import (
     to_json,
     write_json,
 )
-from training.data.duet import Solo
 from training.data.made import made_dancer
 from training.data.sources import read_split
-from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
+from training.denoiser.clips import Augmentation
 from training.diffusion.react import Request, at_height, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
@@ -49,6 +47,7 @@ from training.loop.run import fast_precision
 from training.motion.floor import put_on_floor
 from training.motion.other_body import in_body
 from training.motion.skeleton import body_height
+from training.stage2 import solo_clips
 
 
 @pytest.fixture(scope="module")
@@ -194,31 +193,27 @@ def test_training_starts_from_another_checkpoint(data: Path, trained: Path, tmp_
 
 
 def test_pairs_made_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp_path: Path) -> None:
-    for name in ("hfsq.json", "hfsq.safetensors"):
-        (tmp_path / name).write_bytes((trained / name).read_bytes())
+    for run in ("solos", "without", "next"):
+        (tmp_path / run).mkdir()
+        for name in ("hfsq.json", "hfsq.safetensors"):
+            (tmp_path / run / name).write_bytes((trained / name).read_bytes())
     np.savez(tmp_path / "solo.npz", indian_1=made_dancer(300, 1), martial_1=made_dancer(300, 2))
-    seen = []
-
-    def watch(solos: list[Solo], copies: int, *rest: Any) -> list[Clip]:
-        seen.append(([solo.name for solo in solos], copies))
-        return solo_pair_clips(solos, copies, *rest)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("training.stage2.solo_pair_clips", watch)
-        train_denoiser.main(
-            stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",))
-        )
-    assert seen == [(["indian_1"], 1)]
-    next_run = tmp_path / "next"
-    train_hfsq.main(stage1(data, next_run, init=tmp_path))
-    train_denoiser.main(stage2(data, next_run, init=tmp_path))
-    assert solos_seen(next_run) == ("indian",), "by the training that this one goes on from"
-    with_solos, _ = load_denoiser(tmp_path, load_hfsq(trained)[0])
-    first, _ = load_denoiser(trained, load_hfsq(trained)[0])
-    # Statistics stay those of the duets; weights learn.
-    assert torch.equal(with_solos.condition.leader.mean, first.condition.leader.mean)
+    options = stage2(
+        data, tmp_path / "solos", init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",)
+    )
+    clips = solo_clips(options, DENOISER.condition, *load_hfsq(trained))
+    assert len(clips) == 2, "one dancer and its mirror image: those of other names are left out"
+    train_denoiser.main(options)
+    train_denoiser.main(stage2(data, tmp_path / "without", init=trained))
+    train_denoiser.main(stage2(data, tmp_path / "next", init=tmp_path / "solos"))
+    assert solos_seen(tmp_path / "next") == ("indian",), "by the training that this one goes on from"
+    assert solos_seen(tmp_path / "without") == ()
+    hfsq, _ = load_hfsq(trained)
+    with_solos, without = (load_denoiser(tmp_path / run, hfsq)[0] for run in ("solos", "without"))
+    # Statistics stay those of the duets; weights learn from other windows.
+    assert torch.equal(with_solos.condition.leader.mean, without.condition.leader.mean)
     assert any(
-        not torch.equal(a, b) for a, b in zip(with_solos.parameters(), first.parameters(), strict=True)
+        not torch.equal(a, b) for a, b in zip(with_solos.parameters(), without.parameters(), strict=True)
     )
 
 

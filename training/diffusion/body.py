@@ -49,7 +49,7 @@ def measure_body(model: Model, partners: Sequence[np.ndarray], role: int) -> Ten
     The bones have their mean lengths as decoded, which are shorter than the true ones: where a decoder is unsure of a
     direction it shortens the bone. The shorter arm errs less.
     """
-    dances = [_decoded_joints(model, partner, role) for partner in partners]
+    dances = [decoded_dance(model, partner, role) for partner in partners]
     lengths = bone_lengths(torch.cat(dances)[None])[0].mean(0)
     rigid = [rigid_body(steady_bones(dance[None], lengths), lengths)[0] for dance in dances]
     offsets = torch.from_numpy(rest_offsets(torch.cat(rigid).numpy()))
@@ -57,8 +57,9 @@ def measure_body(model: Model, partners: Sequence[np.ndarray], role: int) -> Ten
     return F.normalize(offsets, dim=-1) * lengths[:, None]
 
 
-def _decoded_joints(model: Model, partner: np.ndarray, role: int) -> Tensor:
-    """Joints (T, 22, 3), metres, of a dance as decoded."""
+@torch.no_grad()
+def decoded_dance(model: Model, partner: np.ndarray, role: int) -> Tensor:
+    """Joints (T, 22, 3), metres, of a dance as decoded: bones change their lengths."""
     sampling = model.sampling
     leader = at_height(partner, sampling.reference_height)
     memory = model.condition(leader, *music_of_length(None, len(leader)), torch.tensor([float(role)]))

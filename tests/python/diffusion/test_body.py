@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 import torch
 
 from export.tiny import tiny_model
 from training.data.made import made_dancer
-from training.diffusion.body import measure_body, set_bodies
+from training.diffusion.body import decoded_dance, measure_body, set_bodies
 from training.diffusion.react import Request, react
 from training.motion.rigid_body import bone_lengths
 from training.motion.skeleton import JOINTS
@@ -26,15 +25,15 @@ def test_both_bodies_are_measured_on_dances_beside_the_other_dancer() -> None:
     assert not torch.allclose(reactor, before[0], atol=1e-3)
 
 
-def test_a_body_has_the_mean_lengths_of_the_decoded_bones(monkeypatch: pytest.MonkeyPatch) -> None:
-    decoded = torch.from_numpy(made_dancer(120, 5))
-    elbow, wrist = JOINTS.index("left_elbow"), JOINTS.index("left_wrist")
-    # A left forearm that is longer than the right one, by up to a half.
-    decoded[:, wrist] += torch.linspace(0, 0.5, 120)[:, None] * (decoded[:, wrist] - decoded[:, elbow])
-    monkeypatch.setattr("training.diffusion.body.decoded_joints", lambda *_: decoded)
-    lengths = measure_body(tiny_model(), [made_dancer(120, 1)], 0).norm(dim=-1)
-    assert torch.allclose(lengths[1:], bone_lengths(decoded[None])[0].mean(0)[1:], atol=1e-6)
-    assert lengths[wrist] > 1.2 * lengths[JOINTS.index("right_wrist")]
+def test_a_body_has_the_mean_lengths_of_the_decoded_bones_left_and_right_of_their_own() -> None:
+    model, partners = tiny_model(), [made_dancer(120, 1), made_dancer(60, 2)]
+    decoded = torch.cat([decoded_dance(model, partner, 0) for partner in partners])
+    changing = bone_lengths(decoded[None])[0]
+    lengths = measure_body(model, partners, 0).norm(dim=-1)
+    assert torch.allclose(lengths[1:], changing.mean(0)[1:], atol=1e-6)
+    assert (changing.std(0)[1:] > 1e-3).all(), "else no mean would be told from a median"
+    left, right = (lengths[JOINTS.index(f"{side}_wrist")] for side in ("left", "right"))
+    assert abs(left - right) > 0.05 * left
 
 
 def test_a_dance_has_the_measured_bones() -> None:
