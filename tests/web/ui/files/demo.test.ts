@@ -17,9 +17,9 @@ describe('the demo’s ready-made reaction', () => {
   interface Loading {
     /** The model that made the reaction. */
     readonly model?: string;
-    /** Resolves when the song is to be read. */
-    readonly beforeSong?: Promise<void>;
-    /** Where it is given, the song's download ends only after `beforeSong`, well or not. */
+    /** Called when the song is to be read, which waits for it. */
+    readonly beforeSong?: () => Promise<void>;
+    /** Where it is given, it is the song's download that waits for `beforeSong`, and ends well or not. */
     readonly songAnswer?: boolean | null;
     readonly readReactor?: () => Promise<SolvedMotion>;
   }
@@ -28,7 +28,7 @@ describe('the demo’s ready-made reaction', () => {
     store: change.Store,
     {
       model = small.id,
-      beforeSong = Promise.resolve(),
+      beforeSong = () => Promise.resolve(),
       songAnswer = null,
       readReactor = () => Promise.resolve(still(30)),
     }: Loading,
@@ -37,12 +37,12 @@ describe('the demo’s ready-made reaction', () => {
     const reactor = { file: 'reactor', label: 'demo reaction', model, settings };
     const demo = JSON.stringify({ song: { ...named('song'), one: 1.6 }, leader: named('leader'), reactor });
     vi.stubGlobal('fetch', async ({ pathname }: URL) => {
-      if (pathname.endsWith('/song') && songAnswer !== null) await beforeSong;
+      if (pathname.endsWith('/song') && songAnswer !== null) await beforeSong();
       const status = pathname.endsWith('/song') && songAnswer === false ? 503 : 200;
       return new Response(pathname.endsWith('.json') ? demo : 'content', { status });
     });
     const readers = {
-      loadSong: () => beforeSong.then(() => songData(3)),
+      loadSong: () => (songAnswer === null ? beforeSong() : Promise.resolve()).then(() => songData(3)),
       readLeader: () => Promise.resolve({ file: leaderFile(30), motion: still(30) }),
       manifest: () => Promise.resolve(small),
     };
@@ -59,10 +59,11 @@ describe('the demo’s ready-made reaction', () => {
   ): Promise<change.Store> => {
     const store = change.createAppStore('dark');
     let goOn = (): void => undefined;
-    const beforeSong = new Promise<void>((resolve) => (goOn = resolve));
+    const read = new Promise<void>((resolve) => (goOn = resolve));
+    const beforeSong = vi.fn(() => read);
     const loading = load(store, { model, beforeSong, songAnswer });
-    await vi.waitUntil(() => store.getState().leader !== null);
-    await new Promise((resolve) => setTimeout(resolve, 20));
+    await vi.waitUntil(() => beforeSong.mock.calls.length > 0 && store.getState().leader !== null);
+    if (model === small.id) await vi.waitUntil(() => store.getState().settings?.seed === settings.seed);
     act(store);
     goOn();
     await loading;

@@ -1,4 +1,4 @@
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, type Mock, vi } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import { openedText, Project } from '../../../../web/ui/project/project';
 import type { FoundProject } from '../../../../web/ui/project/records';
@@ -49,15 +49,20 @@ describe('a project', () => {
   let project: Project;
   let files: FileLoader;
   /** By the names of leaders and the contents of songs: what their reading waits for, and what lets it go on. */
-  let held: Map<string, { readonly wait: Promise<void>; readonly goOn: () => void }>;
+  let held: Map<string, { readonly wait: Mock<() => Promise<void>>; readonly goOn: () => void }>;
   const hold = (name: string): void => {
     let goOn = (): void => undefined;
-    const wait = new Promise<void>((resolve) => (goOn = resolve));
-    held.set(name, { wait, goOn });
+    const going = new Promise<void>((resolve) => (goOn = resolve));
+    held.set(name, { wait: vi.fn(() => going), goOn });
   };
+  /** Resolves when something that is held is being read. */
+  const reached = (name: string): Promise<void> =>
+    vi.waitFor(() => expect(held.get(name)?.wait).toHaveBeenCalled());
   const goOn = (name: string): void => held.get(name)?.goOn();
   const takes = (): string[] => store.getState().takes.map(({ id }) => id);
-  /** Lets everything happen that does not wait for what is held. */
+  /** Resolves when all of an earlier visit is back. */
+  const restoredAll = () => vi.waitFor(() => expect(store.getState().restoring).toBeNull());
+  /** Lets everything happen that does not wait for what is held, where nothing may come of it. */
   const pass = () => new Promise((resolve) => setTimeout(resolve, 50));
 
   /** Opens the page in a browser in which an earlier visit has stored this. */
@@ -65,11 +70,11 @@ describe('a project', () => {
     store = change.createAppStore('dark');
     const readers: FileReaders = {
       loadSong: async (file) => {
-        await held.get(await file.text())?.wait;
+        await held.get(await file.text())?.wait();
         return songData(3);
       },
       readLeader: async ({ files }) => {
-        await held.get(files[0]!.name)?.wait;
+        await held.get(files[0]!.name)?.wait();
         return { file: leaderFile(30), motion: still(30) };
       },
       manifest: () => {
@@ -127,7 +132,7 @@ describe('a project', () => {
     await project.restore();
     change.apply(store, takeDeleted('of first.bvh'));
     goOn('second.bvh');
-    await pass();
+    await restoredAll();
     expect(takes()).toEqual(['of second.bvh']);
   });
 
@@ -135,7 +140,7 @@ describe('a project', () => {
     visit(stored());
     hold('first.bvh');
     const restored = project.restore();
-    await pass();
+    await reached('first.bvh');
     await files.openLeader({
       name: 'newer.bvh',
       label: null,
@@ -144,7 +149,7 @@ describe('a project', () => {
     });
     goOn('first.bvh');
     await restored;
-    await pass();
+    await restoredAll();
     expect(store.getState()).toMatchObject({ leader: { name: 'newer.bvh' }, countings: [COUNTED] });
     expect(takes().sort()).toEqual(['of first.bvh', 'of second.bvh']);
   });
@@ -153,7 +158,7 @@ describe('a project', () => {
     visit(stored());
     hold('first.bvh');
     const restored = project.restore();
-    await pass();
+    await reached('first.bvh');
     await files.openSong(new Blob(['newer song']), 'newer.mp3', null);
     goOn('first.bvh');
     await restored;
@@ -171,9 +176,9 @@ describe('a project', () => {
       hold('demo song');
       hold('new.bvh');
       void files.openSong(new Blob(['demo song']), 'demo.ogg', 'demo');
-      await pass();
+      await reached('demo song');
       const opened = project.open(await fileOf('new.bvh'));
-      await pass();
+      await reached('new.bvh');
       for (const name of order === 'before' ? ['demo song', 'new.bvh'] : ['new.bvh', 'demo song']) {
         goOn(name);
         await pass();
@@ -190,9 +195,9 @@ describe('a project', () => {
     hold('newer.bvh');
     hold('old.bvh');
     const older = project.open(await fileOf('old.bvh', 'page.bvh'));
-    await pass();
+    await reached('old.bvh');
     const newer = project.open(await fileOf('newer.bvh'));
-    await pass();
+    await reached('newer.bvh');
     goOn('old.bvh');
     expect(await older).toBe(false);
     expect(store.getState().restoring?.what).toContain('newer.bvh');
