@@ -1,4 +1,5 @@
 import { spawn } from 'node:child_process';
+import { existsSync, realpathSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
@@ -104,11 +105,11 @@ function seconds(start) {
 /**
  * Whether a module is the program that was started, not one that a program imports.
  *
- * @param {string} url the module's import.meta.url
+ * @param {string} url the module's import.meta.url, in which Node has followed links, as it has not in what was started
  */
 export function isProgram(url) {
   const [, started] = process.argv;
-  return started !== undefined && url === pathToFileURL(started).href;
+  return started !== undefined && existsSync(started) && url === pathToFileURL(realpathSync(started)).href;
 }
 
 /**

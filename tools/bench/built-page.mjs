@@ -25,6 +25,8 @@ export async function servePage(root, mounts) {
     build: { outDir, emptyOutDir: true, target: 'es2023', assetsInlineLimit: 0, chunkSizeWarningLimit: 5000 },
   });
   const server = createSite({ root: outDir, mounts });
+  // A program whose browser does not start ends, although it served the page already.
+  server.unref();
   const url = await listen(server, { port: 0 });
   return {
     url,

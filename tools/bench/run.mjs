@@ -59,10 +59,10 @@ async function measurePython(folder, threads) {
  * @returns {Promise<Row[]>}
  */
 async function measureBrowser(folder, threadCounts) {
-  const browser = await launchBrowser({ backend: options.gpu ? 'webgpu' : 'wasm', gpu: options.gpu });
   const pageFolder = fileURLToPath(new URL('page', import.meta.url));
   const model = path.resolve(root, options.model);
   const page = await servePage(pageFolder, { '/scene/': folder, '/model/': model });
+  const browser = await launchBrowser({ backend: options.gpu ? 'webgpu' : 'wasm', gpu: options.gpu });
   try {
     return await measureBackends(browser, page.url, { ...options, threadCounts });
   } finally {
@@ -94,6 +94,8 @@ async function measureStages(folder) {
 }
 
 await runMain(async () => {
+  if (![undefined, 'stages', 'app'].includes(options.only))
+    throw new Error(`--only ${options.only}: it is stages or app`);
   const folder = await mkdtemp(path.join(os.tmpdir(), 'reactdance-bench-'));
   try {
     /** @param {'stages' | 'app'} part */

@@ -51,7 +51,7 @@ export async function openApp({ backend, gpu }) {
 /** @param {number} id of a process */
 function residentMemory(id) {
   try {
-    return Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${id}/status`, 'utf8'))?.[1] ?? NaN) / 1024;
+    return Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${id}/status`, 'utf8'))?.[1] ?? 0) / 1024;
   } catch {
     return 0;
   }

@@ -28,6 +28,8 @@ export async function measureLength(folder, minutes, where) {
   await writeSong(song, minutes * 60);
   await writeLeader(leader, Math.round(minutes * 60 * 30));
   const app = await openApp(where);
+  /** @type {NodeJS.Timeout | undefined} */
+  let sampling;
   try {
     const { page } = app;
     await app.start();
@@ -39,7 +41,7 @@ export async function measureLength(folder, minutes, where) {
       }).observe({ type: 'longtask' });
     });
     let memory = 0;
-    const sampling = setInterval(() => {
+    sampling = setInterval(() => {
       app.memory().then(
         (now) => (memory = Math.max(memory, now)),
         () => undefined,
@@ -59,12 +61,12 @@ export async function measureLength(folder, minutes, where) {
     figures.leader = lap();
     await until(page, `s.reaction?.inputs.leader.name === '${name}.bvh' && !s.job && s.quality`);
     figures.dance = lap();
-    clearInterval(sampling);
     const longestTask = await page.evaluate(
       () => /** @type {number} */ (Reflect.get(globalThis, 'longestTask')),
     );
     return { minutes, ...figures, memory, longestTask };
   } finally {
+    clearInterval(sampling);
     await app.close();
   }
 }
