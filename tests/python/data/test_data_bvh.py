@@ -123,6 +123,15 @@ def test_channels_that_are_not_as_stated_are_named(tmp_path: Path, channels: str
         parse_bvh(path)
 
 
+def test_a_file_of_several_skeletons_is_refused_by_that_name(tmp_path: Path, dancer: MadeDancer) -> None:
+    path = write_bvh(tmp_path / "two.bvh", dancer, "own", unit=1.0)
+    text = path.read_text()
+    skeleton = text[text.index("ROOT") : text.index("MOTION")]
+    path.write_text(text.replace("MOTION", f"{skeleton}MOTION"))
+    with pytest.raises(ValueError, match=r"two\.bvh: several skeletons in one file"):
+        read_bvh(path)
+
+
 def test_units_by_the_size_of_a_person() -> None:
     assert find_unit(1.4) == 1.0
     assert find_unit(150.0) == 0.01
