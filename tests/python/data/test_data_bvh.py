@@ -217,6 +217,18 @@ def test_a_rest_pose_before_the_dance_is_left_out(tmp_path: Path, dancer: MadeDa
     np.testing.assert_array_equal(read_bvh(begun).motion, read_bvh(plain).motion)
 
 
+@pytest.mark.parametrize(("way", "left_out"), [((0.8, 0.93, 0.99), 3), ((0.93, 0.99), 2), ((), 1)])
+def test_the_fast_frames_in_which_a_solver_moves_out_of_the_rest_pose_are_left_out_too(
+    tmp_path: Path, dancer: MadeDancer, way: tuple[float, ...], left_out: int
+) -> None:
+    path = write_bvh(tmp_path / "a.bvh", dancer, "CMU", unit=0.01)
+    plain = parse_bvh(path)
+    rest = np.zeros_like(plain.values[0])
+    rest[:3] = 90, 95, 100
+    between = [rest + share * (plain.values[0] - rest) for share in way]
+    assert rest_frames(replace(plain, values=np.stack([rest, *between, *plain.values]))) == left_out
+
+
 def test_partners_begin_together_where_one_has_a_rest_pose(tmp_path: Path) -> None:
     for role, seed in (("leader", 2), ("reactor", 3)):
         write_bvh(tmp_path / f"rumba_{role}.bvh", MadeDancer(frames=40, seed=seed), "CMU", unit=0.01)
