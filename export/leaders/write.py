@@ -60,18 +60,18 @@ def main(options: Options) -> None:
 
 
 def partners(options: Options, motions: dict[str, np.ndarray], folder: Path) -> None:
-    """Filmstrips of the leaders with generated partners."""
+    """Filmstrips of the leaders with generated partners, which get them as on the page: in the body of the training."""
     from export.runtime import open_model
     from training.diffusion.react import Request, react
     from training.evaluation.report.filmstrip import filmstrip
+    from training.motion.other_body import in_body
 
     model = open_model(folder, threads=1)
     recipe = AudioRecipe()
     music = features(load_audio(options.song, recipe), recipe)
     for name, motion in motions.items():
-        song = np.zeros((len(motion), music.shape[1]), dtype=music.dtype)
-        song[: len(music)] = music[: len(motion)]
-        reactor = react(model, Request(motion, song, options.seed))
+        known = in_body(motion, model.manifest["skeleton"]["training_bodies"]["leader"])
+        reactor = react(model, Request(motion, music, options.seed, condition_leader=known))
         for start in range(0, int(len(motion) / FPS) - 4, 8):
             filmstrip(motion, reactor, options.out / f"{name}_{start}.png", start=start, seconds=6, poses=14)
 
