@@ -88,7 +88,7 @@ def read_config(folder: Path, name: str) -> dict:
     """NAME.json of a checkpoint. Raises FileNotFoundError, and ValueError where it is no JSON object."""
     path = folder / f"{name}.json"
     if not path.exists():
-        raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
+        raise FileNotFoundError(f"{path} is missing: train it first, or name another folder")
     with naming(path):
         config = json.loads(path.read_text())
         if not isinstance(config, dict):
@@ -165,7 +165,7 @@ def start_from(module: nn.Module, folder: Path, name: str) -> None:
     """
     path = folder / f"{name}.safetensors"
     if not path.exists():
-        raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
+        raise FileNotFoundError(f"{path} is missing: train it first, or name another folder")
     with naming(path):
         with safe_open(str(path), "pt") as file:
             there = {key: tuple(file.get_slice(key).get_shape()) for key in file.keys()}  # noqa: SIM118
