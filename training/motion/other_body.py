@@ -36,7 +36,10 @@ def read_motion(path: Path, shape: tuple[int, ...]) -> np.ndarray:
 def run_solver(*arguments: str | Path) -> None:
     """Runs tools/solve.mjs. Raises ValueError without Node, and with what Node says where it fails."""
     if shutil.which("node") is None:
-        raise ValueError("Node was not found: it runs the page's own code (tools/solve.mjs)")
+        raise ValueError(
+            "Node was not found, which runs the page's own code (tools/solve.mjs); training.generate needs none with "
+            "--leader-as-is"
+        )
     done = subprocess.run(
         ["node", "tools/solve.mjs", *arguments], cwd=ROOT, check=False, capture_output=True, text=True
     )
