@@ -133,6 +133,14 @@ describe('the demo’s ready-made reaction', () => {
     expect(store.getState()).toMatchObject({ leader: { name: 'own' }, song: null, reading: { song: null } });
   });
 
+  it('keeps its song from a visitor who is opening one when it comes', async () => {
+    const own = { name: 'own', fraction: 0.5 };
+    const store = await loadWhile((page) => change.apply(page, change.readingSet('song', own)), {
+      songAnswer: true,
+    });
+    expect(store.getState()).toMatchObject({ song: null, reading: { song: own }, demo: 'ready' });
+  });
+
   it('does not come back in the other role when the roles are swapped while its song is read', async () => {
     const store = await loadWhile((page) => {
       change.apply(page, change.rolesSwapped());

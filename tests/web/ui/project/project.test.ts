@@ -75,6 +75,7 @@ describe('a project', () => {
       },
       readLeader: async ({ files }) => {
         await held.get(files[0]!.name)?.wait();
+        if (files[0]!.name === 'broken.bvh') throw new Error('It has no joints.');
         return { file: leaderFile(30), motion: still(30) };
       },
       manifest: () => {
@@ -188,6 +189,16 @@ describe('a project', () => {
       expect(takes()).toEqual(['of new.bvh']);
     },
   );
+
+  it('whose leader cannot be read leaves the page as it is', async () => {
+    visit(null);
+    await project.restore();
+    expect(await project.open(await fileOf('page.bvh'))).toBe(true);
+    expect(await project.open(await fileOf('other.bvh', 'broken.bvh'))).toBe(false);
+    expect(takes()).toEqual(['of page.bvh']);
+    expect(store.getState().leader?.name).toBe('page.bvh');
+    expect(store.getState().problem).not.toBeNull();
+  });
 
   it('that is given while an older one is still being read is the one that is opened', async () => {
     visit(null);
