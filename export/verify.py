@@ -35,7 +35,7 @@ of WebAssembly and of newer processors do not."""
 ROUNDING_TOLERANCE = 0.005
 """Metres, likewise, for the rounded convolutions of the condition and the decode graph."""
 
-BLOCKS = (1, 2, 9, 75)
+BLOCKS = (1, 2, 9)
 
 CAPTION = (
     "The largest difference of numbers, of the reactor's joints in metres. distance, int8, rounding: the mean distance "
@@ -50,7 +50,7 @@ class Options:
     model: Path
     """Folder of the exported model."""
     blocks: tuple[int, ...] = BLOCKS
-    """Lengths of the dances that are compared, in blocks."""
+    """Lengths of the dances that are compared, in blocks of eight seconds: 75 is a dance of ten minutes."""
 
 
 def differences(truth: dict[str, np.ndarray], exported: Exported) -> dict[str, float]:
@@ -85,7 +85,7 @@ def verify(
 ) -> dict[int, dict[str, float]]:
     """Differences for clips of so many blocks, the last one not full: of the graphs in single precision from the
     rounded model, of those with 8-bit products from it (int8), and of the rounded model from the one given (rounding).
-    log: told of each length before it is verified, since the longest takes minutes. Raises ValueError beyond the
+    log: told of each length before it is verified, which takes a while. Raises ValueError beyond the
     tolerances, and for a folder that was exported from a network of other sizes.
     """
     single, int8 = open_model(folder, backend="webgpu"), open_model(folder, backend="wasm")
