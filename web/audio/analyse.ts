@@ -26,6 +26,9 @@ const MAX_AMPLITUDE = 1000;
 /** Largest amplitude of a silent song (full scale is 1): -80 decibels. */
 const MAX_SILENT_AMPLITUDE = 1e-4;
 
+/** Channels whose mean is less loud than this share of the first one cancel each other out. */
+const CANCELLED_SHARE = 0.01;
+
 /**
  * Mixes a decoded song to mono, resamples it and computes its features.
  *
@@ -69,13 +72,20 @@ function checkSamples(samples: Float32Array, sampleRate: number): void {
   );
 }
 
-/** Mean of the channels. */
+/**
+ * Mean of the channels, at least one; the first channel where they cancel each other out, as those of a song whose voice
+ * was removed do: it can be heard, but its mean is silent. `mixed_down` of training/music/features.py.
+ */
 export function mixDown(channels: readonly Float32Array[]): Float32Array {
-  const mono = new Float32Array(channels[0]?.length ?? 0);
+  const first = channels[0]!;
+  const mono = new Float32Array(first.length);
+  let [loudest, loudestOfFirst] = [0, 0];
   for (let i = 0; i < mono.length; i++) {
     let sum = 0;
     for (const channel of channels) sum += channel[i]!;
     mono[i] = sum / channels.length;
+    loudest = Math.max(loudest, Math.abs(mono[i]!));
+    loudestOfFirst = Math.max(loudestOfFirst, Math.abs(first[i]!));
   }
-  return mono;
+  return loudest < CANCELLED_SHARE * loudestOfFirst ? first : mono;
 }

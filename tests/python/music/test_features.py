@@ -107,6 +107,13 @@ def test_load_audio_takes_the_mean_of_the_channels_at_the_recipe_rate(tmp_path: 
     np.testing.assert_allclose(audio[1000:-1000], (sine(440, 1) / 2)[1000:-1000], atol=1e-4)
 
 
+def test_load_audio_takes_one_of_two_channels_that_cancel_each_other_out(tmp_path: Path) -> None:
+    left = sine(440, 1)
+    path = tmp_path / "without-voice.wav"
+    soundfile.write(path, np.stack([left, -0.999 * left], axis=1), RECIPE.sample_rate, subtype="FLOAT")
+    np.testing.assert_allclose(load_audio(path, RECIPE), left, atol=1e-6)
+
+
 def test_a_song_that_cannot_be_used_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"nowhere\.mp3 does not exist"):
         load_audio(tmp_path / "nowhere.mp3", RECIPE)

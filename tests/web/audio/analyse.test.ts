@@ -13,6 +13,16 @@ describe('what is computed from decoded samples', () => {
     expect(Array.from(mono)).toEqual([0.5, 0.25, -1]);
   });
 
+  it('takes one of two channels that cancel each other out, as without the voice', () => {
+    const left = Float32Array.of(0.5, 0.25, -1);
+    const right = left.map((sample) => -0.999 * sample);
+    expect(mixDown([left, right])).toEqual(left);
+    expect(mixDown([Float32Array.of(0, 0, 0), left])).toEqual(left.map((sample) => sample / 2));
+    const tone = Float32Array.from({ length: second }, (_, i) => 0.5 * Math.sin(i / 10));
+    const { silent } = analyse([tone, tone.map((sample) => -sample)], second, recipe, ignore);
+    expect(silent).toBe(false);
+  });
+
   it('is as long as the song', () => {
     const { waveform, frames, sound } = analyse([new Float32Array(2 * second)], second, recipe, ignore);
     expect(waveform.high).toHaveLength(2 * waveform.rate);
