@@ -8,7 +8,7 @@ from torch import Tensor
 
 from training.diffusion.model import ReactionModel, Sampling
 
-MAX_PREDICTIONS = 4096  # about 0.1 MB each for a dance of a minute
+MAX_PREDICTIONS = 4096  # about 0.4 MB each for a dance of a minute
 
 
 class CachedModel:

@@ -29,7 +29,7 @@ def arctangent(x: Tensor) -> Tensor:
 
 
 def cosine_sine(angle: Tensor) -> tuple[Tensor, Tensor]:
-    """cos and sin of angles of up to two turns (radians), to 1e-6: of a sixteenth, doubled four times."""
+    """cos and sin of angles of up to two turns (radians), to 3e-6: of a sixteenth, doubled four times."""
     x = angle / 16
     y = x * x
     sine = x * (1 + y * (-1 / 6 + y * (1 / 120 + y * (-1 / 5040 + y / 362880))))

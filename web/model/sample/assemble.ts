@@ -45,9 +45,10 @@ export class Assembler {
   }
 
   /**
-   * Some seconds of a dance, as they are in the whole to a tenth of a millimetre. On each side the decoder's receptive
-   * field is decoded and solved with them and cut off: within it the ends of a clip fade from decoded joints and from the
-   * shifts of locked feet and against collisions.
+   * Some seconds of a dance, as they are in the whole to a millimetre, and feet that come near each other to two
+   * centimetres, because steps are chosen that keep them apart. On each side the decoder's receptive field is decoded and
+   * solved with them and cut off: within it the ends of a clip fade from decoded joints and from the shifts of locked feet
+   * and against collisions.
    * @param from first frame; rounded down to where a part can begin
    * @param length frames from there on; fewer at the end of the dance
    */

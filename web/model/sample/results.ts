@@ -9,7 +9,7 @@ export interface GeneratedMotion {
   readonly locked: SolvedMotion;
 }
 
-/** A part of a generated dancer, shown before the whole is there. It equals that part of the whole. */
+/** A part of a generated dancer, shown before the whole is there. It is that part of the whole, but for a millimetre. */
 export interface Preview extends GeneratedMotion {
   /** The frame of the whole dance at which this part begins. */
   readonly from: number;
