@@ -94,9 +94,22 @@ const MIDDLE_SIZE = 1.18;
 const MIN_SIZE = 0.7;
 const MAX_SIZE = 2;
 
+/** The same range for files that this page wrote: its dancers are 0.5 to 2.5 m high. */
+const OWN_MIN_SIZE = 0.2;
+const OWN_MAX_SIZE = 2.6;
+
 /** Whether a body has the size of a person. @param size leg plus trunk plus neck, metres */
 export function isOfPerson(size: number): boolean {
   return size >= MIN_SIZE && size <= MAX_SIZE;
+}
+
+/** The unit of BVH files that this page wrote, which state none. */
+const CENTIMETRES: Unit = { name: 'centimetres', metres: 0.01 };
+
+/** The unit of a file that this page wrote; null where no dancer here has the body's size. Arguments as of `findUnit`. */
+export function ownUnit(size: number, stated: Unit | null): Unit | null {
+  const unit = stated ?? CENTIMETRES;
+  return size * unit.metres >= OWN_MIN_SIZE && size * unit.metres <= OWN_MAX_SIZE ? unit : null;
 }
 
 /**

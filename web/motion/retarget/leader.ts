@@ -6,6 +6,7 @@ import {
   findUp,
   floorHeight,
   isOfPerson,
+  ownUnit,
   UP_AXES,
 } from './axes-and-units';
 import { type Body, measureBody, nodesOfBody, retarget, withToes } from './retarget';
@@ -168,6 +169,9 @@ function tooShort({ frames, truncated }: MotionSource, fps: number): AppError {
   );
 }
 
+/** Whether this page wrote the file: its unit, floor and frame rate are then right. */
+const isOwn = ({ convention }: JointMap): boolean => convention === OWN_CONVENTION;
+
 /** The body's size in metres per unit of the file. */
 function unitOf(source: MotionSource, body: Body, options: ImportOptions) {
   const size = medianOf(body, (measured) => measured.size);
@@ -179,7 +183,8 @@ function unitOf(source: MotionSource, body: Body, options: ImportOptions) {
     );
   }
   const chosen = ALL_UNITS.find(({ name }) => name === options.unit);
-  if (!chosen) return { ...findUnit(size, source.unit), doubt: null };
+  const own = isOwn(body.map) ? ownUnit(size, source.unit) : null;
+  if (!chosen) return { ...(own ? { ...own, known: true } : findUnit(size, source.unit)), doubt: null };
   const doubt = isOfPerson(size * chosen.metres) ? null : sizeDoubt(chosen.name, size * chosen.metres);
   return { ...chosen, known: true, doubt };
 }
@@ -239,7 +244,7 @@ export function leaderOf(
   const warnings = [...source.warnings, ...facing.warnings];
   const { map } = body;
   const unit = unitOf(source, body, options);
-  const own = map.convention === OWN_CONVENTION;
+  const own = isOwn(map);
   const { positions, estimated } = retarget(body);
   const placed = inMetres(positions, unit.metres);
   const floor = options.floor ?? findFloor(placed, own);

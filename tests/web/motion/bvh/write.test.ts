@@ -47,8 +47,10 @@ describe('what is written is what was solved', () => {
   });
 
   test.each([
+    ['the smallest partner', 0.3],
     ['a child', 0.62],
     ['a giant', 1.35],
+    ['the largest partner', 1.5],
   ])('the unit is found again for %s', (_, size) => {
     const motion = solve(madeDancer({ frames: 30, size }));
     const { clip, report } = leaderBvh(writeBvh(motion));
