@@ -33,13 +33,16 @@ const JOIN_SMOOTHING = 0.2;
 /** Distance of a wrist from the shoulder, as a share of the arm's length, up to which it moves with the body, and from which it may stay. */
 const FOLDED = 0.25;
 const OPEN = 0.8;
+/** By how much an arm is too short for its joined hand up to which it reaches for it, and from which it does not, metres. */
+const WITHIN_REACH = 0.15;
+const OUT_OF_REACH = 0.45;
 /** Weight of the side to which a limb bends, where a right angle has 1: it decides only where the limb is straight. */
 const BEND_WEIGHT = 0.05;
 
 /**
  * The same dance by a body of another size. The pelvis stays above its place on the floor and rises with the body; feet
  * stay where they stand and hands that are joined with the partner's stay joined, by two-bone inverse kinematics, as far
- * as the limbs reach. All other bones keep their direction. Pure.
+ * as the limbs reach; hands that are far out of reach are let go. All other bones keep their direction. Pure.
  *
  * @param clip of a body with constant bone lengths, on a floor at height 0
  * @param factor new size / size, above 0
@@ -79,7 +82,7 @@ export function resized(clip: MotionClip, factor: number, partner: MotionClip, t
     }
     ARMS.forEach((arm, side) => {
       // A folded arm would swing round its shoulder.
-      const share = joined[side]![frame]! * opened(arm, before);
+      const share = joined[side]![frame]! * opened(arm, before) * reachable(arm, grown, before(arm.end));
       if (share === 0) return;
       const moved = reach(arm, 1, grown, lerp(grown(arm.end), before(arm.end), share), forward);
       put(arm.middle, moved.middle);
@@ -104,6 +107,15 @@ function joinedShares(clip: MotionClip, partner: MotionClip, wrist: number): Flo
 function opened({ start, middle, end }: LimbJoints, at: (joint: number) => Vec3): number {
   const whole = distance(at(start), at(middle)) + distance(at(middle), at(end));
   return smoothstep(FOLDED, OPEN, distance(at(start), at(end)) / whole);
+}
+
+/**
+ * How far an arm is long enough for a place of its hand, 0 to 1: beside a much taller partner it would point into the air,
+ * and swing down and up again within three frames where it folds.
+ */
+function reachable({ start, middle, end }: LimbJoints, at: (joint: number) => Vec3, hand: Vec3): number {
+  const whole = distance(at(start), at(middle)) + distance(at(middle), at(end));
+  return 1 - smoothstep(WITHIN_REACH, OUT_OF_REACH, distance(at(start), hand) - whole);
 }
 
 /**

@@ -115,6 +115,20 @@ describe('resized', () => {
     expect(folded(0.6)).toBeGreaterThan(0.04);
   });
 
+  it('lets a hand go that a much smaller body cannot reach', () => {
+    const partner = { ...far, positions: far.positions.slice() };
+    for (const frame of frames)
+      partner.positions.set(at(clip, frame, J.right_wrist), (frame * JOINT_COUNT + J.left_wrist) * 3);
+    const moved = (factor: number): number => {
+      const [held, free] = [partner, far].map((other) =>
+        at(resized(clip, factor, other, TOE_REST), 30, J.right_wrist),
+      ) as [Vec3, Vec3];
+      return distance(held, free);
+    };
+    expect(moved(0.9)).toBeGreaterThan(0.02);
+    expect(moved(0.3)).toBe(0);
+  });
+
   it('bends legs that were straight forwards, and stretches none fully to stay where it stood', () => {
     // Straight legs, the feet apart.
     const { offsets } = madeDancer({ frames: 1 });
