@@ -17,7 +17,7 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 9
+FORMAT, VERSION = "reactdance-model", 10
 LAYERS = ("coarse", "fine")
 ROLES = ("reactor", "leader")
 

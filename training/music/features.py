@@ -12,8 +12,6 @@ from training.music.recipe import AudioRecipe
 
 SONG_SUFFIXES = (".wav", ".flac", ".mp3", ".ogg", ".opus")
 """Files that `load_audio` reads."""
-CANCELLED_SHARE = 0.01
-"""Channels whose mean is less loud than this share of the first one cancel each other out."""
 
 
 def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
@@ -40,16 +38,16 @@ def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
     if not np.isfinite(channels).all():
         raise ValueError(f"{path} cannot be read as a song: it holds samples that are not finite")
     return librosa.resample(
-        mixed_down(channels), orig_sr=rate, target_sr=recipe.sample_rate, res_type="soxr_hq"
+        mixed_down(channels, recipe.cancelled_share), orig_sr=rate, target_sr=recipe.sample_rate, res_type="soxr_hq"
     )
 
 
-def mixed_down(channels: np.ndarray) -> np.ndarray:
+def mixed_down(channels: np.ndarray, cancelled_share: float) -> np.ndarray:
     """Mean (N,) of the channels (N, C); the first channel where they cancel each other out, as those of a song whose
     voice was removed do: it can be heard, but its mean is silent.
     """
     mean, first = channels.mean(axis=1), channels[:, 0].copy()
-    return first if np.abs(mean).max() < CANCELLED_SHARE * np.abs(first).max() else mean
+    return first if np.abs(mean).max() < cancelled_share * np.abs(first).max() else mean
 
 
 def frame_count(samples: int, recipe: AudioRecipe) -> int:

@@ -15,6 +15,8 @@ class AudioRecipe:
 
     sample_rate: int = 15360
     """Rate of the mono signal that is analysed, Hz."""
+    cancelled_share: float = 0.01
+    """Channels whose mean is less loud than this share of the first one cancel each other out."""
     hop: int = 512
     """Samples between frames; 15360 / 512 = 30 frames per second, the rate of the motion."""
     n_fft: int = 2048

@@ -26,9 +26,6 @@ const MAX_AMPLITUDE = 1000;
 /** Largest amplitude of a silent song (full scale is 1): -80 decibels. */
 const MAX_SILENT_AMPLITUDE = 1e-4;
 
-/** Channels whose mean is less loud than this share of the first one cancel each other out. */
-const CANCELLED_SHARE = 0.01;
-
 /**
  * Mixes a decoded song to mono, resamples it and computes its features.
  *
@@ -43,8 +40,11 @@ export function analyse(
   onProgress: (fraction: number) => void,
 ): Analysis {
   channels.forEach((channel) => checkSamples(channel, sampleRate));
-  const pcm = resample(mixDown(channels), sampleRate, recipe.sample_rate, (fraction) =>
-    onProgress(RESAMPLING_SHARE * fraction),
+  const pcm = resample(
+    mixDown(channels, recipe.cancelled_share),
+    sampleRate,
+    recipe.sample_rate,
+    (fraction) => onProgress(RESAMPLING_SHARE * fraction),
   );
   const { frames, features } = musicFeatures(pcm, recipe, (fraction) =>
     onProgress(RESAMPLING_SHARE + (1 - RESAMPLING_SHARE) * fraction),
@@ -76,7 +76,7 @@ function checkSamples(samples: Float32Array, sampleRate: number): void {
  * Mean of the channels, at least one; the first channel where they cancel each other out, as those of a song whose voice
  * was removed do: it can be heard, but its mean is silent. `mixed_down` of training/music/features.py.
  */
-export function mixDown(channels: readonly Float32Array[]): Float32Array {
+export function mixDown(channels: readonly Float32Array[], cancelledShare: number): Float32Array {
   const first = channels[0]!;
   const mono = new Float32Array(first.length);
   let [loudest, loudestOfFirst] = [0, 0];
@@ -87,5 +87,5 @@ export function mixDown(channels: readonly Float32Array[]): Float32Array {
     loudest = Math.max(loudest, Math.abs(mono[i]!));
     loudestOfFirst = Math.max(loudestOfFirst, Math.abs(first[i]!));
   }
-  return loudest < CANCELLED_SHARE * loudestOfFirst ? first : mono;
+  return loudest < cancelledShare * loudestOfFirst ? first : mono;
 }

@@ -14,6 +14,8 @@ const schema = v.pipe(
   v.object({
     /** Hz of the mono signal that is analysed. */
     sample_rate: v.pipe(v.number(), v.integer(), v.minValue(4000), v.maxValue(192_000)),
+    /** Channels whose mean is less loud than this share of the first one cancel each other out. */
+    cancelled_share: v.pipe(v.number(), v.minValue(0), v.maxValue(1)),
     /** Samples between two frames. */
     hop: v.pipe(v.number(), v.integer(), v.minValue(32), v.maxValue(16_384)),
     /** Samples under the Hann window of one frame. */

@@ -82,7 +82,7 @@ const names = v.pipe(
 
 export const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(9),
+  version: v.literal(10),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),

@@ -9,15 +9,15 @@ const ignore = (): void => undefined;
 
 describe('what is computed from decoded samples', () => {
   it('mixes channels to their mean', () => {
-    const mono = mixDown([Float32Array.of(1, 0, -1), Float32Array.of(0, 0.5, -1)]);
+    const mono = mixDown([Float32Array.of(1, 0, -1), Float32Array.of(0, 0.5, -1)], 0.01);
     expect(Array.from(mono)).toEqual([0.5, 0.25, -1]);
   });
 
   it('takes one of two channels that cancel each other out, as without the voice', () => {
     const left = Float32Array.of(0.5, 0.25, -1);
     const right = left.map((sample) => -0.999 * sample);
-    expect(mixDown([left, right])).toEqual(left);
-    expect(mixDown([Float32Array.of(0, 0, 0), left])).toEqual(left.map((sample) => sample / 2));
+    expect(mixDown([left, right], 0.01)).toEqual(left);
+    expect(mixDown([Float32Array.of(0, 0, 0), left], 0.01)).toEqual(left.map((sample) => sample / 2));
     const tone = Float32Array.from({ length: second }, (_, i) => 0.5 * Math.sin(i / 10));
     const { silent } = analyse([tone, tone.map((sample) => -sample)], second, recipe, ignore);
     expect(silent).toBe(false);

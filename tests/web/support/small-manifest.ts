@@ -18,7 +18,7 @@ const smallBody = (): number[][] => SMPL22.map((_, joint) => [0, joint === 0 ? 0
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 9,
+    version: 10,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -69,6 +69,7 @@ export function smallJson() {
     architecture: {},
     audio: {
       sample_rate: 15360,
+      cancelled_share: 0.01,
       hop: 512,
       n_fft: 2048,
       mels: 128,
