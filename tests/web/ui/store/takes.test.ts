@@ -8,7 +8,7 @@ import {
 import type { AppState } from '../../../../web/ui/store/state';
 import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
-import { regionSet, zoomSet } from '../../../../web/ui/store/actions/timeline';
+import { regionSet, shiftSet, zoomSet } from '../../../../web/ui/store/actions/timeline';
 import { MAX_TAKES } from '../../../../web/ui/store/add-take';
 import { takesMerged } from '../../../../web/ui/store/actions/project';
 import * as edit from '../../../../web/ui/store/actions/takes';
@@ -381,6 +381,25 @@ describe('choosing a take', () => {
     page.do(redone());
     expect(page.state.leader).toBe(page.dancer);
     expect(page.state).toMatchObject({ zoom: null, playback: { time: 10, region: null } });
+  });
+
+  it('of another song soon after one of the same song is undone with its song', () => {
+    page.do(change.songLoaded(song(10)));
+    page.arrive();
+    page.seed(8);
+    page.arrive();
+    page.do(change.songLoaded(song(12)), shiftSet(5));
+    page.arrive();
+    page.do(edit.takeChosen(page.id('Take 1')));
+    vi.useFakeTimers({ now: Date.now() + 5000 });
+    const { reaction, song: before } = page.state;
+    page.do(edit.takeChosen(page.id('Take 2')), edit.takeChosen(page.id('Take 3')));
+    page.do(undone());
+    expect(page.state.reaction).toBe(reaction);
+    expect(page.state.song).toBe(before);
+    expect(currentInputs(page.state)).toEqual(reaction!.inputs);
+    page.do(redone());
+    expect([page.onStage, page.state.shift]).toEqual(['Take 3', 5]);
   });
 
   it('of the same leader leaves loop and zoom as they are', () => {

@@ -73,15 +73,11 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
   // Two fingers may move two faders.
   const sameKind = last?.kind === kind || (held && isOfSettings(last?.kind) && isOfSettings(kind));
   const continues = open && kind !== null && last !== undefined && sameKind && sameGesture;
+  const back = pick(before, [...parts, 'reaction', ...(after.other === before.other ? [] : COMPARISON)]);
   const step: Step = continues
-    ? { ...last, at }
-    : {
-        kind,
-        at,
-        back: pick(before, [...parts, 'reaction', ...(after.other === before.other ? [] : COMPARISON)]),
-        edits,
-        stage: takeOnStage(before),
-      };
+    ? // A take chosen after another one may change more than that did, as the song.
+      { ...last, at, back: { ...back, ...last.back } }
+    : { kind, at, back, edits, stage: takeOnStage(before) };
   const kept = continues ? past.slice(0, -1) : past;
   return { ...patch, history: { past: newest([...kept, step], after), future: [], open: true } };
 }
