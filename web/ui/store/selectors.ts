@@ -52,8 +52,10 @@ export function sameSettings(a: Settings, b: Settings): boolean {
 
 export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
   if (!a || !b) return a === b;
-  const sameFiles = a.leader === b.leader && a.song === b.song && a.shift === b.shift;
-  return sameFiles && sameSettings(a.settings, b.settings);
+  const sameFiles = a.leader === b.leader && a.song === b.song;
+  // Without a song nothing is shifted: takes whose song can't be read any more still say where it began.
+  const sameShift = a.song === null || a.shift === b.shift;
+  return sameFiles && sameShift && sameSettings(a.settings, b.settings);
 }
 
 /** Whether two requests have the same sampled latents, or the same inputs: weights and settings of solving may differ. */

@@ -62,6 +62,13 @@ describe('the inputs of the next reaction', () => {
     ])
       expect(select.upToDate(state({ leader: one, reaction, settings: changed }))).toBe(false);
   });
+
+  it('are up to date where the song of the reaction is gone, wherever it began', () => {
+    const one = leader(30);
+    const inputs = { leader: one, song: null, shift: 12, settings };
+    const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
+    expect(select.upToDate(state({ leader: one, reaction, shift: 12 }))).toBe(true);
+  });
 });
 
 describe('guidance matrix', () => {
