@@ -44,6 +44,9 @@ export function answersCsv(answers: readonly Answer[]): string {
   return table([...TITLES], rows);
 }
 
+/** A cell as a number; an empty one is none. */
+const numberIn = (cell: string): number => (cell.trim() === '' ? NaN : Number(cell));
+
 const round = (value: number): number => Math.round(value * 1e4) / 1e4;
 
 /** One line for every two methods and criterion. */
@@ -82,10 +85,10 @@ export function readAnswers(text: string): Answer[] {
     const known = CRITERIA.find(({ id }) => id === criterion)?.id;
     if (!known) throw refused(`line ${i + 2} has an unknown question`);
     const numbers = {
-      seed: Number(row.seed),
-      pair: Number(row.pair),
-      score: Number(row.score),
-      seconds: Number(row.seconds),
+      seed: numberIn(row.seed),
+      pair: numberIn(row.pair),
+      score: numberIn(row.score),
+      seconds: numberIn(row.seconds),
     };
     const { score } = numbers;
     if (!Object.values(numbers).every(Number.isFinite) || !Number.isInteger(score) || Math.abs(score) > 2)

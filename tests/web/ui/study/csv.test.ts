@@ -35,6 +35,7 @@ describe('answers as a table', () => {
     ['a row that is cut off', `${answersCsv(answers)}Ana,files\r\n`, /line 4 is damaged/],
     ['an open quote', answersCsv(answers).replace('first"""', 'first'), /line 3 is damaged/],
     ['a score of 3', answersCsv(answers).replace('-2,ours', '3,ours'), /line 2 has a number/],
+    ['no score', answersCsv(answers).replace('-2,ours', ',ours'), /line 2 has a number/],
     ['no number', answersCsv(answers).replace('12.3', 'soon'), /line 2 has a number/],
     [
       'another question',
