@@ -55,7 +55,8 @@ export function makePlan(
   const random = randomFrom(seed);
   const byMethods = new Map<string, (readonly [duet: string, a: string, b: string])[]>();
   for (const { name, methods } of duets) {
-    const opponents = methods.filter((method) => method !== reference);
+    // In one order in all duets, whatever that of the files: sides are given in turn.
+    const opponents = reference ? methods.filter((method) => method !== reference) : [...methods].sort();
     const two: (readonly [string, string])[] = reference
       ? methods.includes(reference)
         ? opponents.map((other) => [reference, other] as const)

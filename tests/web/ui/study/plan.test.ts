@@ -39,6 +39,15 @@ describe('the plan of a blind test', () => {
     expect(leftAtFirst).toBeLessThan(250);
   });
 
+  test('so it is without a reference, in whichever order the methods of a duet come', () => {
+    const two = [
+      { name: 'a', methods: ['edge', 'truth'] },
+      { name: 'b', methods: ['truth', 'edge'] },
+    ];
+    for (let seed = 0; seed < 20; seed++)
+      expect(count(makePlan(two, null, 100, seed), ({ left }) => left === 'edge')).toBe(1);
+  });
+
   test('every pair comes first about equally often', () => {
     const first = new Map<string, number>();
     for (let seed = 0; seed < 1500; seed++) {
