@@ -145,7 +145,8 @@ export class Project {
       await restorer.readRest(this.background);
       const now = store.getState();
       // Files that the visitor has chosen in the meantime are the newer request.
-      if (!isNewest() || now.leader !== before.leader || now.song !== before.song) return false;
+      const isNewerAsked = now.leader !== before.leader || now.song !== before.song || now.asked.length > 0;
+      if (!isNewest() || isNewerAsked) return false;
       const content = restorer.content(now);
       if (project.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));

@@ -217,4 +217,20 @@ describe('a project', () => {
     expect(takes()).toEqual(['of newer.bvh']);
     expect(store.getState().restoring).toBeNull();
   });
+
+  it('gives way to a leader that is asked for while it is still being read', async () => {
+    visit(null);
+    await project.restore();
+    hold('of a take.bvh');
+    hold('newer.bvh');
+    const opened = project.open(await fileOf('of a take.bvh', 'page.bvh'));
+    await pass();
+    const asked = files.open([new File(['HIERARCHY\nROOT Hips'], 'newer.bvh')]);
+    await pass();
+    goOn('of a take.bvh');
+    expect(await opened).toBe(false);
+    goOn('newer.bvh');
+    await asked;
+    expect(store.getState()).toMatchObject({ leader: { name: 'newer.bvh' }, takes: [], restoring: null });
+  });
 });
