@@ -41,6 +41,40 @@ test('guidance by body part, presets and reset', async ({ page }) => {
   await expect(preset.locator('option:checked')).toHaveText('Balanced');
 });
 
+test('a fader is moved by the main button alone, and a double click is one step of undo', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const coarse = page.getByRole('slider', { name: 'Coarse guidance' });
+  await coarse.fill('0.5');
+  await app.settled();
+  const { x, y, width, height } = (await coarse.boundingBox())!;
+  const at = (share: number) => page.mouse.move(x + share * width, y + height / 2);
+
+  await at(0.3);
+  await page.keyboard.down('Shift');
+  await page.mouse.down({ button: 'right' });
+  expect(await app.read(({ drag }) => drag)).toBeNull();
+  await at(0.9);
+  await page.mouse.up({ button: 'right' });
+  await page.keyboard.up('Shift');
+  await expect(coarse).toHaveValue('0.5');
+
+  // The first click moves it, unless it is on the handle.
+  const { value, share } = await coarse.evaluate((input: HTMLInputElement) => ({
+    value: input.value,
+    share: (input.valueAsNumber - Number(input.min)) / (Number(input.max) - Number(input.min)),
+  }));
+  for (const place of [0.3, share]) {
+    await page.mouse.dblclick(x + place * width, y + height / 2);
+    await expect(coarse).toHaveValue('0');
+    await page.keyboard.press('Control+z');
+    await expect(coarse).toHaveValue(value);
+  }
+});
+
 test('the music has its own guidance, which is disabled without a song', async ({ page }) => {
   await page.route('**/demo/demo.json', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);

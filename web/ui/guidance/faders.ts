@@ -5,6 +5,7 @@ import { columnOf, rangeOf } from '../store/guidance-matrix';
 import type { Guidance, Layer } from '../store/reaction';
 import type { AppState } from '../store/state';
 import {
+  clickContinued,
   guidanceReset,
   guidanceSet,
   musicReset,
@@ -95,8 +96,9 @@ export function createFaders(store: Store): {
         changed = control;
         apply(store, set(value, beforeDrag));
       },
-      reset: () => {
+      reset: (clicked) => {
         changed = control;
+        if (clicked) apply(store, clickContinued());
         apply(store, reset());
       },
       grab: () => {

@@ -51,8 +51,10 @@ export const mountGuidance: Mount = (root, store, services) => {
 
 /** Says when a fader in the section is grabbed and released; wherever the pointer is by then, the page hears of it. */
 function followDrags(section: HTMLElement, store: Store): void {
-  const begin = ({ target }: Event): void => {
-    if (target instanceof HTMLInputElement && target.type === 'range') apply(store, dragBegun());
+  const begin = ({ target, button }: PointerEvent): void => {
+    const isFader = target instanceof HTMLInputElement && target.type === 'range';
+    // Another button opens a menu, which may take the release.
+    if (isFader && button === 0) apply(store, dragBegun());
   };
   const end = (): void => {
     if (store.getState().drag?.held) apply(store, dragEnded());

@@ -7,7 +7,7 @@ import { icon } from '../widgets/icons';
 import { createMiniFader, type MiniFader } from './mini-fader';
 import type { Mount } from '../store/services';
 import type { Guidance } from '../store/reaction';
-import { guidanceCellReset, guidanceCellSet } from '../store/actions/settings';
+import { clickContinued, guidanceCellReset, guidanceCellSet } from '../store/actions/settings';
 import { apply, type Store, watch, watchAll } from '../store/store';
 
 /** Names of the known streams; other streams are shown by their name in the manifest. */
@@ -95,7 +95,8 @@ function createCells(store: Store, { latent }: Manifest): Cell[] {
           change: (value) => {
             apply(store, guidanceCellSet(stream, layer, value));
           },
-          reset: () => {
+          reset: (clicked) => {
+            if (clicked) apply(store, clickContinued());
             apply(store, guidanceCellReset(stream, layer));
           },
         },

@@ -3,7 +3,8 @@ import { setVariable } from './dom';
 
 export interface FaderEvents {
   readonly change: (value: number) => void;
-  readonly reset: () => void;
+  /** @param moved whether the first click of the double click has moved it */
+  readonly reset: (moved: boolean) => void;
   /** The pointer has grabbed it; all changes until its release belong together. */
   readonly grab?: () => void;
   readonly release?: () => void;
@@ -46,13 +47,22 @@ export function connectFaderInput(
   input: HTMLInputElement,
   { change, reset, grab, release }: FaderEvents,
 ): void {
-  input.addEventListener('pointerdown', () => grab?.());
+  input.addEventListener('pointerdown', ({ button }) => {
+    if (button === 0) grab?.();
+  });
   for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
     input.addEventListener(type, () => release?.());
+  let moved = false;
+  input.addEventListener('mousedown', ({ detail }) => {
+    if (detail === 1) moved = false;
+  });
   input.addEventListener('input', () => {
+    moved = true;
     change(input.valueAsNumber);
   });
-  input.addEventListener('dblclick', reset);
+  input.addEventListener('dblclick', () => {
+    reset(moved);
+  });
   dragFinely(input, change);
 }
 
@@ -60,7 +70,7 @@ export function connectFaderInput(
 function dragFinely(input: HTMLInputElement, change: (value: number) => void): void {
   let from: { x: number; value: number } | null = null;
   input.addEventListener('pointerdown', (event) => {
-    if (!event.shiftKey || input.disabled) return;
+    if (!event.shiftKey || event.button !== 0 || input.disabled) return;
     event.preventDefault();
     input.focus();
     input.setPointerCapture(event.pointerId);

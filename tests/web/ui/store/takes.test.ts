@@ -255,6 +255,17 @@ describe('a drag with the pointer', () => {
     expect(page.coarse).toBe(0);
   });
 
+  it('of a double click, whose first click moved the fader, is one step of undo with its reset', () => {
+    page.do(change.guidanceSet('coarse', 1));
+    vi.advanceTimersByTime(5000);
+    page.do(change.dragBegun(), change.guidanceSet('coarse', 0.4), change.dragEnded());
+    vi.advanceTimersByTime(200);
+    page.do(change.dragBegun(), change.dragEnded(), change.clickContinued(), change.guidanceReset('coarse'));
+    expect([page.coarse, steps()]).toEqual([0, 2]);
+    page.do(undone());
+    expect(page.coarse).toBe(1);
+  });
+
   it('leaves the take of the drag before, however soon it follows', () => {
     page.arrive();
     page.now += 60_000;

@@ -88,6 +88,11 @@ export function dragBegun(): Change {
   return ({ history }) => ({ drag: { held: true, take: null }, history: sealed(history) });
 }
 
+/** A double click on a fader, whose first click has moved it: what follows is the same step of undo. */
+export function clickContinued(): Change {
+  return ({ history }) => ({ history: { ...history, open: true } });
+}
+
 /** The pointer has released the fader; the reaction to where it was released may still be on its way. */
 export function dragEnded(): Change {
   return (state) => ({ drag: state.drag && !upToDate(state) ? { ...state.drag, held: false } : null });
