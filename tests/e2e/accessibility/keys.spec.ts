@@ -34,6 +34,22 @@ test('letters as shortcuts can be switched off, also for later visits; Space and
   expect(await loops()).toBe(true);
 });
 
+test('letters do nothing behind a dialog that waits for an answer', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('no dance') });
+  const dialog = page.getByRole('alertdialog');
+  await expect(dialog).toBeVisible();
+  for (const key of ['l', 'x', ']']) await page.keyboard.press(key);
+  const set = () => app.read(({ playback, camera }) => [playback.loop, playback.speed, camera]);
+  expect(await set()).toEqual([false, 1, 'orbit']);
+  await page.keyboard.press('Escape');
+  await expect(dialog).toBeHidden();
+  for (const key of ['l', 'x', ']']) await page.keyboard.press(key);
+  expect(await set()).toEqual([true, 1.25, 'side']);
+});
+
 test('a letter that is held acts once, an arrow goes on', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();

@@ -52,7 +52,9 @@ export function mountKeyboard(store: Store, services: Services): void {
     }
     if (ownsKey(target, event.key)) return;
     if ((event.key === ' ' || event.key === 'Enter') && isPressedByKeys(target)) return;
-    if (!store.getState().letterKeys && isLetterKey(event.key)) return;
+    const { letterKeys, problem, given } = store.getState();
+    // Nothing changes unseen behind a dialog that waits for an answer.
+    if ((!letterKeys || problem || given) && isLetterKey(event.key)) return;
     if (press(event, store, services)) event.preventDefault();
   };
   // A clicked button keeps the focus, and releasing Space would press it again.
