@@ -1,3 +1,4 @@
+import { readFileSync } from 'node:fs';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 
@@ -29,4 +30,29 @@ test('screen readers hear a fader once, and no playhead over the music', async (
     await page.keyboard.press('Space');
     await expect(playhead).not.toHaveAttribute('aria-valuetext', /^0\.0 seconds/);
   });
+});
+
+test('screen readers hear a toast again where it says the same again', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const download = page.waitForEvent('download');
+  await page.keyboard.press('Control+s');
+  const project = await (await download).path();
+  const spoken = page.locator('.stage p[role="status"]', { hasText: 'Opened:' });
+  const open = async (): Promise<void> => {
+    await page.locator('#choose-project').setInputFiles({
+      name: 'dance.reactdance',
+      mimeType: '',
+      buffer: readFileSync(project),
+    });
+  };
+  await open();
+  await expect(spoken).toHaveCount(1);
+  await spoken.evaluate((element) => {
+    const seen = new MutationObserver(() => element.setAttribute('data-again', ''));
+    seen.observe(element, { childList: true, characterData: true, subtree: true });
+  });
+  await open();
+  await expect(spoken).toHaveAttribute('data-again', '');
 });

@@ -70,7 +70,7 @@ export async function unpackedOrReported(
     apply(store, problemShown(archiveProblem(error)));
     return null;
   } finally {
-    if (toast !== null && store.getState().toast === toast) apply(store, toastShown(null));
+    if (toast !== null && store.getState().toast?.text === toast) apply(store, toastShown(null));
   }
 }
 

@@ -30,8 +30,9 @@ export const mountToast: Mount = (root, store) => {
     (toast) => {
       clearTimeout(timer);
       box.hidden = toast === null;
-      setText(text, toast ?? '');
-      setText(spoken, toast ?? '');
+      setText(text, toast?.text ?? '');
+      // A new text even where it is the same: screen readers read out what is added.
+      spoken.replaceChildren(toast?.text ?? '');
       if (toast !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
     },
   );

@@ -72,7 +72,7 @@ export function withReaction(
     // Nobody has asked for a reaction that comes on a first visit, so it is no reason to lose what can be undone.
     history: reaction.label === null && !state.firstVisit ? withoutCleared(history) : history,
     drag: dragged(take.id),
-    toast: oldest.length > 0 ? removedText(oldest) : toast,
+    toast: oldest.length > 0 ? { text: removedText(oldest) } : toast,
   };
 }
 

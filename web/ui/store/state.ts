@@ -222,6 +222,11 @@ export interface PartRead {
   readonly time: number;
 }
 
+/** A sentence about what has just happened; the same one again is another one. */
+export interface Toast {
+  readonly text: string;
+}
+
 export interface AppState {
   readonly theme: Theme;
   readonly camera: View;
@@ -295,8 +300,8 @@ export interface AppState {
   readonly queuedProblems: readonly Problem[];
   /** Sentences to know about that stop nothing. */
   readonly notices: readonly string[];
-  /** A sentence about what has just happened, shown for a few seconds. */
-  readonly toast: string | null;
+  /** Shown for a few seconds. */
+  readonly toast: Toast | null;
   readonly playback: Playback;
   /** What has been read of a leader's video while the rest is being read. */
   readonly partRead: PartRead | null;

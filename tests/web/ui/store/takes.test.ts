@@ -315,7 +315,7 @@ describe('clearing takes', () => {
     for (const title of ['Take 1', 'Take 2']) page.do(edit.takeStarred(page.id(title)));
     page.do(edit.letterGiven(page.id('Take 3'), 'B'), edit.starredKept());
     expect([page.titles, page.onStage, page.state.other]).toEqual([['Take 2', 'Take 1'], 'Take 2', null]);
-    expect(page.state.toast).toMatch(/^2 takes without a star/);
+    expect(page.state.toast?.text).toMatch(/^2 takes without a star/);
     expect(edit.hasTakesToClear(page.state)).toBe(false);
     page.do(undone());
     expect([page.titles.length, page.onStage]).toEqual([4, 'Take 4']);
@@ -344,7 +344,7 @@ describe('the limit of takes', () => {
     }
     expect(page.titles).toHaveLength(MAX_TAKES);
     expect(page.titles.slice(-3)).toEqual(['Take 7', 'Mine', 'Take 1']);
-    expect(page.state.toast).toMatch(/^“Take 6” left the list, which holds 40 takes/);
+    expect(page.state.toast?.text).toMatch(/^“Take 6” left the list, which holds 40 takes/);
   });
 });
 

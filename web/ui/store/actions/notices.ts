@@ -8,8 +8,8 @@ export function noticeAdded(notice: string): Change {
 }
 
 /** Shows for a few seconds what has just happened; null ends that. */
-export function toastShown(toast: string | null): Change {
-  return () => ({ toast });
+export function toastShown(text: string | null): Change {
+  return () => ({ toast: text === null ? null : { text } });
 }
 
 /** Shows a failure; while another one is shown, it is queued. */

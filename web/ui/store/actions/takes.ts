@@ -131,7 +131,7 @@ export function starredKept(): Change {
     const comparisonEnds = next !== undefined || !takes.some(({ id }) => id === state.other);
     return {
       takes,
-      toast: `${counted(count, 'take')} without a star removed. Undo brings them back.`,
+      toast: { text: `${counted(count, 'take')} without a star removed. Undo brings them back.` },
       ...(next && withTakeShown(state, next)),
       ...(comparisonEnds && { other: null, compare: 'off' }),
     };
