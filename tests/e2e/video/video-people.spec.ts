@@ -175,7 +175,8 @@ test('of a video with a cut the longest part is used, until another one is chose
 }) => {
   const studio = await openStudio(browser);
   const shot = { ...SHOT, cut: { at: 1.25, position: [-2, 1.2, 2], target: [0.3, 0.9, 0] } } satisfies Shot;
-  const buffer = Buffer.from(await studio.call('film', 'salsa', shot, 3.5), 'base64');
+  const format = { container: 'webm', sound: true } as const;
+  const buffer = Buffer.from(await studio.call('film', 'salsa', shot, 3.5, format), 'base64');
   await studio.close();
   const app = new App(page);
   await app.openWithoutPicture();
@@ -202,6 +203,33 @@ test('of a video with a cut the longest part is used, until another one is chose
   await expect(panel.getByText('There is a cut at 1.3 s in what is used')).toBeVisible();
   await expect(reversed).toBeHidden();
   await expect.poll(seconds).toBeCloseTo(3.4, 1);
+
+  // Undo brings back the part, in step with the video, and what the controls said of it.
+  const moment = panel.locator('input[type="range"]');
+  await expect(moment).toHaveValue('0');
+  await page.keyboard.press('Escape');
+  await page.evaluate('document.activeElement.blur()');
+  await page.keyboard.press('Control+z');
+  await expect.poll(seconds).toBeCloseTo(2.2, 1);
+  await expect(moment).toHaveValue('1.3');
+  await expect(from).toHaveValue('1.3');
+  const height = panel.getByRole('spinbutton', { name: 'Height of the dancer' });
+  await height.fill('5');
+  await height.press('Tab');
+  await expect(panel.getByText('The height has to be between 100 and 230 cm')).toBeVisible();
+  expect(await seconds()).toBeCloseTo(2.2, 1);
+
+  // Its sound comes with its moment in one step of undo.
+  const song = () => app.read(({ song, shift }) => [song?.name, shift < 0]);
+  const before = await song();
+  const use = panel.getByRole('button', { name: 'Use its sound as the song' });
+  await use.click();
+  await expect.poll(song).toEqual(['edited.webm', true]);
+  await expect(use).toBeHidden();
+  await page.evaluate('document.activeElement.blur()');
+  await page.keyboard.press('Control+z');
+  await expect.poll(song).toEqual(before);
+  await expect(use).toBeVisible();
 });
 
 test('a dancer who is small in a wide picture is found, and followed by a click where someone larger is seen', async ({

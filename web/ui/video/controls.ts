@@ -7,6 +7,8 @@ export interface Controls {
   readonly setSpan: (span: Span) => void;
   /** @param used the part that is used while none is chosen, seconds; null is all of the video */
   readonly setUsed: (used: Span | null) => void;
+  /** @param options as they were set for an earlier motion, which is shown again */
+  readonly setOptions: (options: WorldOptions) => void;
   /** @param camera where it was, as the motion has it */
   readonly setCamera: (camera: VideoMotion['camera']) => void;
 }
@@ -18,6 +20,9 @@ interface Span {
 
 /** Time after the last change before the motion is made anew. */
 const WAIT_MS = 350;
+
+/** Heights of dancers, centimetres. */
+const HEIGHTS = { min: 100, max: 230 };
 
 /** Focal lengths of cameras, relative to the longer side of their pictures. */
 const FOCAL = { min: 0.3, max: 6 };
@@ -36,8 +41,10 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
       const trim = chosen ? { start: from, end: to } : null;
       const tall = height.valueAsNumber / 100;
       const focal = focalFor(distance.valueAsNumber);
-      setText(problem, from >= to ? 'The beginning has to lie before the end: nothing was changed.' : '');
-      if ([from, to, tall, focal].every(Number.isFinite) && from < to) change({ height: tall, focal, trim });
+      const wrong = whyNot(from >= to, height.validity);
+      setText(problem, wrong ?? '');
+      if ([from, to, tall, focal].every(Number.isFinite) && wrong === null)
+        change({ height: tall, focal, trim });
     }, WAIT_MS);
   };
   /** The lens that sees the dancer as large from this distance. */
@@ -48,7 +55,7 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
   };
   const number = (id: string, min: number, max: number, step: number, value: number): HTMLInputElement =>
     el('input', { attributes: { type: 'number', id, min, max, step, value }, on: { change: later } });
-  const height = number('video-height', 100, 230, 1, 170);
+  const height = number('video-height', HEIGHTS.min, HEIGHTS.max, 1, 170);
   const distance = number('video-distance', 0.5, 30, 0.1, 0);
   const start = number('video-start', 0, 600, 0.1, 0);
   const end = number('video-end', 0, 600, 0.1, 0);
@@ -89,6 +96,12 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
     setUsed: (used) => {
       if (all && !chosen) showUsed(all, used);
     },
+    setOptions: ({ height: tall, trim }) => {
+      clearTimeout(timer);
+      height.value = String(Math.round(100 * tall));
+      chosen = trim !== null;
+      if (trim) [start.valueAsNumber, end.valueAsNumber] = [trim.start, trim.end];
+    },
     setCamera: (found) => {
       camera = found;
       distance.value = String(rounded(found.distance));
@@ -99,4 +112,11 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
 /** In tenths of a metre, as the control has it. */
 function rounded(metres: number): number {
   return Math.round(10 * metres) / 10;
+}
+
+/** Why nothing is changed, in a sentence; null where numbers can be used or are missing. */
+function whyNot(isReversed: boolean, { rangeUnderflow, rangeOverflow }: ValidityState): string | null {
+  if (rangeUnderflow || rangeOverflow)
+    return `The height has to be between ${HEIGHTS.min} and ${HEIGHTS.max} cm: nothing was changed.`;
+  return isReversed ? 'The beginning has to lie before the end: nothing was changed.' : null;
 }

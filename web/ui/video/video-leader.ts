@@ -15,8 +15,9 @@ import { shiftSet } from '../store/actions/timeline';
 import { stageCovered } from '../store/actions/view';
 import { firstVisitEnded } from '../store/actions/files';
 import { ask } from '../store/history/asked';
+import { shiftJoined } from '../store/history/history';
 import { isAbort } from '../store/problems';
-import type { LeaderSource } from '../store/reaction';
+import type { LeaderSource, LoadedSong } from '../store/reaction';
 import type { Files } from '../store/services';
 import { apply, watch, watchAll, type Store } from '../store/store';
 import { combineDisposers } from '../widgets/dom';
@@ -27,6 +28,13 @@ import { VideoPanel } from './video-panel';
 /** Height of a dancer until it is told, metres. */
 const DEFAULT_HEIGHT = 1.7;
 
+/** What a leader was made of. */
+interface Made {
+  readonly observations: Observations;
+  readonly options: WorldOptions;
+  readonly motion: VideoMotion;
+}
+
 /** A video that is open. */
 interface Session {
   readonly file: File;
@@ -35,14 +43,16 @@ interface Session {
   readonly ended: AbortController;
   /** Ends the search for people in the picture of a moment. */
   looking: AbortController;
-  /** The files of the leaders that were made of it: another video may have the same name. */
-  readonly made: Set<LeaderSource['files']>;
+  /** The leaders that were made of it, by their files: another video may have the same name. */
+  readonly made: Map<LeaderSource['files'], Made>;
   /** The video whose dancer is the leader until this one has been read; it is shown again if that fails. */
   before: Session | null;
   /** When the video's sound begins, seconds of the video; null where it has none. */
   soundStart: number | null;
   /** The same of the page's song; null where that is neither the sound nor played while the video was recorded. */
   songStart: number | null;
+  /** The song that was made of the video's sound. */
+  sound: LoadedSong | null;
   observations: Observations | null;
   options: WorldOptions;
   motion: VideoMotion | null;
@@ -78,9 +88,10 @@ export class VideoLeader {
       reader: createVideoReader(),
       ended,
       looking: new AbortController(),
-      made: new Set(),
+      made: new Map(),
       before,
       soundStart: null,
+      sound: null,
       songStart,
       observations: null,
       options: { height: DEFAULT_HEIGHT, focal: DEFAULT_FOCAL, trim: null },
@@ -202,7 +213,7 @@ export class VideoLeader {
       this.#showRead(session);
       const { shift } = store.getState();
       const source = sourceOf(file, motion.bvh);
-      session.made.add(source.files);
+      session.made.set(source.files, { observations, options, motion });
       const leader = await this.files.openLeader(source);
       if (!leader && session.motion === motion) {
         // It could not be read, or was cancelled.
@@ -212,7 +223,7 @@ export class VideoLeader {
       }
       if (session.before) this.#end(session.before);
       if (before && (shift !== 0 || session.songStart !== null))
-        apply(store, shiftSet(shift + (before.start - motion.start) * FPS));
+        this.#shiftSong(shift + (before.start - motion.start) * FPS);
       else this.#alignSong(session);
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
@@ -243,13 +254,20 @@ export class VideoLeader {
     // Another leader may have been chosen while the song was analysed.
     if (!song || session.ended.signal.aborted) return;
     session.songStart = session.soundStart;
-    session.panel.showSoundUsed();
+    session.sound = song;
+    session.panel.setSoundUsed(true);
     this.#alignSong(session);
   }
 
   /** Starts a song that belongs to the video at its moment of the dance. */
   #alignSong({ songStart, motion }: Session): void {
-    if (songStart !== null && motion) apply(this.store, shiftSet((songStart - motion.start) * FPS));
+    if (songStart !== null && motion) this.#shiftSong((songStart - motion.start) * FPS);
+  }
+
+  /** In the step of undo that has just loaded the song or the leader. */
+  #shiftSong(frames: number): void {
+    apply(this.store, shiftSet(frames));
+    apply(this.store, shiftJoined());
   }
 
   /** Keeps the video in step with the dance; closes it when another leader takes the place of its dancer. */
@@ -265,14 +283,30 @@ export class VideoLeader {
       ),
       watch(
         store,
+        ({ song }) => song,
+        (song) => {
+          // Undo may take it away, and bring it back.
+          if (session.sound) session.panel.setSoundUsed(song === session.sound);
+        },
+      ),
+      watch(
+        store,
         ({ leader }) => leader,
         (leader) => {
-          const own = leader !== null && session.made.has(leader.files);
+          const made = leader && session.made.get(leader.files);
           // What comes while it is read was asked for earlier, as the demo: newer files call `cancel`.
-          if (session.motion && !own) this.#end(session);
+          if (session.motion && !made) this.#end(session);
+          else if (made && made.motion !== session.motion) this.#goBackTo(session, made);
         },
       ),
     );
+  }
+
+  /** Another of its leaders is on the page again, as by undo. */
+  #goBackTo(session: Session, made: Made): void {
+    Object.assign(session, made);
+    session.panel.showOptions(made.options);
+    if (session === this.#session) this.#showRead(session);
   }
 
   /** Makes room for another video: one that is only being read ends, one whose dancer is the leader waits. */

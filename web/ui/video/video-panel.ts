@@ -205,9 +205,16 @@ export class VideoPanel {
     this.#advice.replaceChildren(...warnings.map((text) => el('li', { text, class: 'warning' })));
   }
 
-  showSoundUsed(): void {
-    this.#soundUsed = true;
-    this.#hide(this.#sound);
+  /** Shows how the motion that is shown next was made. */
+  showOptions(options: WorldOptions): void {
+    this.#controls.setOptions(options);
+  }
+
+  /** Whether the page's song is the sound of the video. */
+  setSoundUsed(used: boolean): void {
+    this.#soundUsed = used;
+    if (used) this.#hide(this.#sound);
+    else this.#sound.hidden = !this.#hasSound || this.#root.classList.contains('is-reading');
   }
 
   /** Shows the moment of the dance that is played. @param start moment of the video at which the dance begins */

@@ -108,15 +108,33 @@ export function loadingJoined(after: Step | null): Change {
     const kinds = [first, second].map(({ kind }) => (kind ?? '').split(' '));
     if (!(['song', 'leader'] as const).every((kind) => kinds.some((parts) => parts.includes(kind))))
       return {};
-    const step: Step = {
-      ...first,
-      at: second.at,
-      kind: null,
-      back: { ...second.back, ...first.back },
-      edits: [...second.edits, ...first.edits],
-    };
-    return { history: { ...history, past: [...history.past.slice(0, -2), step], open: false } };
+    return { history: withLastJoined(history, joined(first, second, null)) };
   };
+}
+
+/** The shift that comes with a song or leader, as with those of a video, is part of the step that loaded them. */
+export function shiftJoined(): Change {
+  return ({ history }) => {
+    const [loading, shift] = history.past.slice(-2);
+    if (!loading || shift?.kind !== 'shift' || !/song|leader/.test(loading.kind ?? '')) return {};
+    return { history: withLastJoined(history, joined(loading, shift, loading.kind)) };
+  };
+}
+
+/** Two steps, one after the other, as one. */
+function joined(first: Step, second: Step, kind: string | null): Step {
+  return {
+    ...first,
+    at: second.at,
+    kind,
+    back: { ...second.back, ...first.back },
+    edits: [...second.edits, ...first.edits],
+  };
+}
+
+/** With one step in the place of the last two. */
+function withLastJoined(history: History, step: Step): History {
+  return { ...history, past: [...history.past.slice(0, -2), step], open: false };
 }
 
 /** Without the step that would bring back what starting over removed: something new has been made since. */

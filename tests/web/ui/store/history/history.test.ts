@@ -5,9 +5,10 @@ import type { LoadedLeader } from '../../../../../web/ui/store/reaction';
 import * as change from '../../../support/actions';
 import { projectCleared } from '../../../../../web/ui/store/actions/project';
 import { takeDeleted } from '../../../../../web/ui/store/actions/takes';
-import { redone, undone, withoutUndo } from '../../../../../web/ui/store/history/history';
+import { shiftSet } from '../../../../../web/ui/store/actions/timeline';
+import { redone, shiftJoined, undone, withoutUndo } from '../../../../../web/ui/store/history/history';
 import { currentInputs } from '../../../../../web/ui/store/take';
-import { leader, still } from '../../../support/made-state';
+import { leader, song, still } from '../../../support/made-state';
 import { small } from '../../../support/small-manifest';
 
 /** A leader that takes so many megabytes. */
@@ -138,5 +139,22 @@ describe('the history of undo', () => {
     react(store, '2');
     change.apply(store, undone());
     expect(store.getState().takes.map(({ id }) => id)).toEqual(['1']);
+  });
+
+  it('joins the shift of a song with its loading, and no other shift', () => {
+    const store = page();
+    change.apply(store, change.leaderLoaded(leader(300)));
+    change.apply(store, change.songLoaded(song(10)));
+    change.apply(store, shiftSet(7));
+    change.apply(store, shiftJoined());
+    expect(steps(store)).toBe(1);
+    change.apply(store, change.seedSet(9));
+    change.apply(store, shiftSet(8));
+    change.apply(store, shiftJoined());
+    expect(steps(store)).toBe(3);
+    for (let step = 0; step < 3; step++) change.apply(store, undone());
+    expect(store.getState()).toMatchObject({ song: null, shift: 0 });
+    change.apply(store, redone());
+    expect(store.getState()).toMatchObject({ song: { name: song(10).name }, shift: 7 });
   });
 });
