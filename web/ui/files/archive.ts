@@ -85,8 +85,8 @@ function batchesOf(sizes: ReadonlyMap<string, number>): Set<string>[] {
   return batches;
 }
 
-/** Whether an entry of an archive is a file that somebody put there: not a folder, nor what systems add. */
-function isContent(name: string): boolean {
+/** Whether an entry of an archive or a folder is a file that somebody put there: not a folder, nor what systems add. */
+export function isContent(name: string): boolean {
   return !/[\\/]$|(^|[\\/])(\.|__MACOSX[\\/]|Thumbs\.db$|desktop\.ini$)/i.test(name);
 }
 

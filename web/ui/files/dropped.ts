@@ -3,16 +3,16 @@ import { problemShown, toastShown } from '../store/actions/notices';
 import { archiveProblem, dropProblem, emptyDropProblem } from '../store/problems';
 import type { DroppedFile, Files } from '../store/services';
 import { apply, type Store } from '../store/store';
-import { unpacked } from './archive';
+import { isContent, unpacked } from './archive';
 import type { ModelLink } from './model-link';
 
-/** All files that were dropped, also those in folders. To be called in the event's handler: after it the list is empty. */
+/** All files that were dropped, also those that somebody put into folders. To be called in the event's handler: after it the list is empty. */
 export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry());
   const plain = [...transfer.files].map((file) => ({ path: file.name, file }));
   if (!entries.some((entry) => entry?.isDirectory)) return plain;
   const found = await Promise.all(entries.filter((entry) => entry !== null).map(filesBelow));
-  return found.flat();
+  return found.flat().filter(({ path }) => isContent(path));
 }
 
 async function filesBelow(entry: FileSystemEntry): Promise<DroppedFile[]> {

@@ -1,10 +1,38 @@
 import { strToU8, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { DroppedFile } from '../../../../web/ui/store/services';
-import { createInOrder, modelFolder, openDropped } from '../../../../web/ui/files/dropped';
+import { createInOrder, droppedFiles, modelFolder, openDropped } from '../../../../web/ui/files/dropped';
 import { createAppStore } from '../../../../web/ui/store/store';
 
 const dropped = (...paths: string[]) => paths.map((path) => ({ path, file: new File([path], path) }));
+
+/** A folder or a file as browsers give it. */
+function entry(path: string, ...below: object[]): object {
+  const fullPath = `/${path}`;
+  if (below.length === 0) {
+    const give = (resolve: (one: File) => void): void => {
+      resolve(new File(['x'], path.split('/').at(-1)!));
+    };
+    return { isFile: true, isDirectory: false, fullPath, file: give };
+  }
+  const batches = [below, []];
+  const readEntries = (resolve: (batch: object[]) => void): void => {
+    resolve(batches.shift()!);
+  };
+  return { isFile: false, isDirectory: true, fullPath, createReader: () => ({ readEntries }) };
+}
+
+it('a dropped folder gives its files, without those that systems put there', async () => {
+  const folder = entry(
+    'dance',
+    entry('dance/.DS_Store'),
+    entry('dance/a.bvh'),
+    entry('dance/songs', entry('dance/songs/b.mp3'), entry('dance/songs/desktop.ini')),
+  );
+  const items = [{ webkitGetAsEntry: () => folder }];
+  const found = await droppedFiles({ items, files: [] } as unknown as DataTransfer);
+  expect(found.map(({ path }) => path)).toEqual(['dance/a.bvh', 'dance/songs/b.mp3']);
+});
 
 describe('the model among dropped files', () => {
   it('is the folder of the manifest, wherever it lies', () => {
