@@ -29,13 +29,14 @@ export class OfferedLeaders {
   /** @param folder where their files are */
   constructor(
     private readonly store: Store,
-    private readonly files: Pick<Files, 'open'>,
+    private readonly files: Pick<Files, 'open' | 'cancel'>,
     private readonly folder: URL,
   ) {}
 
   /** @param file its name in the folder */
   async open(file: string): Promise<void> {
-    this.cancel();
+    // Also a file that is still being read.
+    this.files.cancel('leader');
     const { signal } = (this.#loading = new AbortController());
     const { name } = OFFERED_LEADERS.find((one) => one.file === file)!;
     signal.addEventListener('abort', ask(this.store, 'leader'));

@@ -1,6 +1,10 @@
 import { afterEach, expect, it, vi } from 'vitest';
+import { FileLoader } from '../../../../web/ui/files/file-loader';
 import { OfferedLeaders } from '../../../../web/ui/files/offered';
+import type { FileReaders } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
+import { leaderFile, still } from '../../support/made-state';
+import { small } from '../../support/small-manifest';
 
 afterEach(() => {
   vi.unstubAllGlobals();
@@ -24,7 +28,14 @@ it('the leader that was clicked last is opened, also where an older download end
     opened.push(...files.map(({ name }) => name));
     return Promise.resolve();
   };
-  const offered = new OfferedLeaders(store, { open }, new URL('https://page.example/leaders/'));
+  const cancel = (): void => {
+    offered.cancel();
+  };
+  const offered: OfferedLeaders = new OfferedLeaders(
+    store,
+    { open, cancel },
+    new URL('https://page.example/leaders/'),
+  );
   const slow = offered.open('slow.bvh');
   expect(store.getState().reading.leader?.name).toBe('Slow');
   const quick = offered.open('quick.bvh');
@@ -55,7 +66,11 @@ it('a download of which nothing arrives for half a minute is given up, and its n
   });
   const store = change.createAppStore('dark');
   const open = vi.fn(() => Promise.resolve());
-  const offered = new OfferedLeaders(store, { open }, new URL('https://page.example/leaders/'));
+  const offered = new OfferedLeaders(
+    store,
+    { open, cancel: () => undefined },
+    new URL('https://page.example/leaders/'),
+  );
   const opening = offered.open('slow.bvh');
   await vi.advanceTimersByTimeAsync(31_000);
   vi.useRealTimers();
@@ -65,4 +80,36 @@ it('a download of which nothing arrives for half a minute is given up, and its n
     problem: { code: 'page-part-missing' },
     reading: { leader: null },
   });
+});
+
+it('takes the place of a file that is still being read', async () => {
+  vi.stubGlobal('fetch', () => new Promise(() => undefined));
+  const store = change.createAppStore('dark');
+  let read = (): void => undefined;
+  const readers: FileReaders = {
+    loadSong: () => Promise.reject(new Error('no song')),
+    readLeader: () =>
+      new Promise((resolve) => {
+        read = () => {
+          resolve({ file: leaderFile(30), motion: still(30) });
+        };
+      }),
+    manifest: () => Promise.resolve(small),
+  };
+  const files: FileLoader = new FileLoader(store, readers, {
+    openVideo: () => Promise.resolve(),
+    cancel: () => {
+      offered.cancel();
+    },
+  });
+  const offered: OfferedLeaders = new OfferedLeaders(store, files, new URL('https://page.example/leaders/'));
+  const before = files.open([new File(['HIERARCHY\nROOT Hips'], 'before.bvh')]);
+  await vi.waitFor(() => {
+    expect(store.getState().reading.leader?.name).toBe('before.bvh');
+  });
+  await new Promise((resolve) => setTimeout(resolve, 20));
+  void offered.open('slow.bvh');
+  read();
+  await before;
+  expect(store.getState()).toMatchObject({ leader: null, reading: { leader: { name: 'Slow' } } });
 });
