@@ -128,6 +128,8 @@ test('a number that cannot be used is not taken for none', async ({ page }) => {
   await again.click();
   await app.until(({ leader }) => leader?.options.fps === 23.976);
   await expect(panel).toBeHidden();
+  const inReport = page.getByRole('combobox', { name: 'Frame rate of the leader file' });
+  await expect(inReport.locator('option:checked')).toHaveText('23.98 fps');
 });
 
 test('a leader of the page needs no file, on the first visit and later', async ({ page }) => {

@@ -169,6 +169,8 @@ export function partText({ parts, part }: LoadedLeader['file']['report']): strin
 /** The file's frame rate; choosing another one reads the file again. */
 function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
   const { clip, report } = leader.file;
+  const own = leader.options.fps;
+  const rates = own === undefined || RATES.includes(own) ? RATES : [...RATES, own].sort((a, b) => a - b);
   const select = el(
     'select',
     {
@@ -181,13 +183,12 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
       },
     },
     el('option', {
-      text:
-        leader.options.fps === undefined ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
+      text: own === undefined ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
       attributes: { value: '' },
     }),
-    ...RATES.map((fps) => el('option', { text: `${fps} fps`, attributes: { value: fps } })),
+    ...rates.map((fps) => el('option', { text: `${rate(fps)} fps`, attributes: { value: fps } })),
   );
-  select.value = String(leader.options.fps ?? '');
+  select.value = String(own ?? '');
   const rest = Math.abs(report.sourceFps - clip.fps) > 0.01 ? ` to ${rate(clip.fps)} fps` : '';
   return el('span', {}, select, rest);
 }
