@@ -101,7 +101,9 @@ export class Restorer {
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
     const { letter, takesMade, footLock, countings, time, region, loop, framing } = page;
-    const length = danceDuration({ leader, song: null });
+    // Without a leader the song sets the length, also while it is still being read.
+    const isKnown = leader !== null || song !== null || page.song === null;
+    const length = isKnown ? danceDuration({ leader, song }) : Infinity;
     const inputs: Partial<Inputs> =
       leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song, shift: 0 };
     return {

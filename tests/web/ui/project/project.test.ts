@@ -6,6 +6,7 @@ import { writeProject } from '../../../../web/ui/project/project-file';
 import { storedProject } from '../../../../web/ui/project/stored-project';
 import { countingsRestored } from '../../../../web/ui/store/actions/counting';
 import { takeDeleted } from '../../../../web/ui/store/actions/takes';
+import { regionSet } from '../../../../web/ui/store/actions/timeline';
 import { undone } from '../../../../web/ui/store/history/history';
 import type { FileReaders } from '../../../../web/ui/store/services';
 import type { SongCounting } from '../../../../web/ui/store/state';
@@ -167,6 +168,24 @@ describe('a project', () => {
     expect([song?.name, leader?.name]).toEqual(['newer.mp3', 'first.bvh']);
     expect(reaction).not.toBeNull();
     expect(countings).toEqual([COUNTED]);
+  });
+
+  it('of an earlier visit with a song alone comes back with its playhead and loop', async () => {
+    const earlier = pageOf();
+    change.apply(earlier, change.songLoaded(song(10)));
+    change.apply(earlier, regionSet({ from: 2, to: 4 }));
+    change.apply(earlier, change.playbackSet({ time: 3 }));
+    const found = storedProject(earlier.getState());
+    const bytes = new TextEncoder().encode('song');
+    visit({
+      ...found,
+      songs: found.songs.map(({ id, name, label }) => ({ id, name, label, type: '', bytes })),
+    });
+    await project.restore();
+    expect(store.getState()).toMatchObject({
+      song: { name: song(10).name },
+      playback: { time: 3, region: { from: 2, to: 4 }, loop: true },
+    });
   });
 
   it.for(['before', 'after'])(
