@@ -93,7 +93,9 @@ export function mergedTakes(
 export function withOwnNumbers(takes: readonly Take[]): readonly Take[] {
   let last = Math.max(0, ...takes.map(({ number }) => number));
   const isNewer = (a: Take, b: Take): boolean => (newestFirst(a, b) || (a.id > b.id ? -1 : 1)) < 0;
+  // The page's own reactions have none.
   const isDoubled = (take: Take): boolean =>
+    take.number > 0 &&
     takes.some((other) => other !== take && other.number === take.number && isNewer(take, other));
   // From the oldest on.
   return takes

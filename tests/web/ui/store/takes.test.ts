@@ -681,3 +681,13 @@ it('merged takes of two tabs that counted alike get numbers of their own, the ol
   ]);
   expect(page.state.takesMade).toBe(4);
 });
+
+it('merged reactions of the page, which have no number, get none', () => {
+  page.arrive({ label: 'demo reaction' });
+  const [here] = page.state.takes;
+  page.do(takesMerged([{ ...here!, id: 'of the other tab', createdAt: here!.createdAt - 1 }], []));
+  expect(page.state.takes.map(({ number }) => number)).toEqual([0, 0]);
+  page.seed(8);
+  page.arrive();
+  expect(page.onStage).toBe('Take 1');
+});
