@@ -12,7 +12,8 @@ export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[
   const plain = [...transfer.files].map((file) => ({ path: file.name, file }));
   if (!entries.some((entry) => entry?.isDirectory)) return plain;
   const found = await Promise.all(entries.filter((entry) => entry !== null).map(filesBelow));
-  return found.flat().filter(({ path }) => isContent(path));
+  // Whatever the folder itself is called.
+  return found.flat().filter(({ path }) => isContent(path.replace(/^[^/]*\//, '')));
 }
 
 async function filesBelow(entry: FileSystemEntry): Promise<DroppedFile[]> {

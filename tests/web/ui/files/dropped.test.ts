@@ -24,14 +24,14 @@ function entry(path: string, ...below: object[]): object {
 
 it('a dropped folder gives its files, without those that systems put there', async () => {
   const folder = entry(
-    'dance',
-    entry('dance/.DS_Store'),
-    entry('dance/a.bvh'),
-    entry('dance/songs', entry('dance/songs/b.mp3'), entry('dance/songs/desktop.ini')),
+    '.dance',
+    entry('.dance/.DS_Store'),
+    entry('.dance/a.bvh'),
+    entry('.dance/songs', entry('.dance/songs/b.mp3'), entry('.dance/songs/desktop.ini')),
   );
   const items = [{ webkitGetAsEntry: () => folder }];
   const found = await droppedFiles({ items, files: [] } as unknown as DataTransfer);
-  expect(found.map(({ path }) => path)).toEqual(['dance/a.bvh', 'dance/songs/b.mp3']);
+  expect(found.map(({ path }) => path)).toEqual(['.dance/a.bvh', '.dance/songs/b.mp3']);
 });
 
 describe('the model among dropped files', () => {
