@@ -108,10 +108,11 @@ export class FileLoader implements Files {
 
   rereadLeader({ name, label, files }: LeaderSource, options: ImportOptions): Promise<LoadedLeader | null> {
     this.otherLeaders.cancel();
-    return this.runLeader(
-      { name, asked: true, done: this.putLeader },
-      given({ name, label, files, options }),
-    );
+    // A step of undo also where the leader is the page's own: the visitor has changed it.
+    const done = (leader: LoadedLeader): void => {
+      apply(this.store, leaderLoaded(leader));
+    };
+    return this.runLeader({ name, asked: true, done }, given({ name, label, files, options }));
   }
 
   /** Reads the file again whose reading failed last. */

@@ -396,5 +396,7 @@ describe('reading files', () => {
       files: source('a.bvh').files,
     });
     expect(store.getState().leader?.file.clip.frames).toBe(120);
+    change.apply(store, undone());
+    expect(store.getState().leader).toBe(loaded);
   });
 });
