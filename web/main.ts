@@ -62,6 +62,7 @@ import { updateSet } from './ui/store/actions/view';
 import { stageProblem } from './ui/store/problems';
 import type { FileChoice, Services } from './ui/store/services';
 import { undoLast } from './ui/store/history/asked';
+import { redone } from './ui/store/history/history';
 import { apply, createAppStore } from './ui/store/store';
 import { mountCompareSwitch } from './ui/takes/compare-switch';
 import { mountTakes } from './ui/takes/takes-panel';
@@ -167,6 +168,11 @@ const services: Services = {
     variations.cancel();
   },
   undo: () => undoLast(store, files),
+  redo: () => {
+    apply(store, redone());
+    // Starting over may have been undone before the demo was there.
+    if (store.getState().demo === 'loading') void openDemo();
+  },
   makeVariations: variations.make,
   drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
@@ -239,7 +245,7 @@ for (const mount of [mountGuidance, mountOptions, mountMotionSwitches, mountTake
 mountImportPanel(rememberedJoints)(document.body, store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
-mountUndoKeys(store, services);
+mountUndoKeys(services);
 // The model is downloaded on when the connection is there again.
 addEventListener('online', services.retryModel);
 if (stage) {

@@ -300,6 +300,23 @@ test('everything is restored after a reload, and from a project file after the p
   });
 });
 
+test('starting over that was undone before the demo was there loads it when it is redone', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await page.keyboard.press('s');
+  await page.getByRole('button', { name: 'Project', exact: true }).click();
+  await page.getByRole('button', { name: /Start over/ }).click();
+  await page.keyboard.press('Control+z');
+  await app.until(({ takes }) => takes[0]?.starred);
+  await page.waitForTimeout(1000);
+  await page.keyboard.press('Control+y');
+  await app.until(({ takes }) => takes[0] && !takes[0].starred);
+  await expect(page.getByRole('button', { name: 'Play the demo' })).toBeEnabled();
+});
+
 test('full storage is reported, nothing on the page is lost, and autosave goes on when there is room', async ({
   page,
 }) => {

@@ -95,6 +95,7 @@ export interface Services {
   readonly cancel: () => void;
   /** Undoes what the visitor did last: a step, or the request for a song or leader that is still being read. */
   readonly undo: () => void;
+  readonly redo: () => void;
   /** Generates three reactions that differ in their seed; where there are three already, three others. */
   readonly makeVariations: () => void;
   /** Draws a dancer into a canvas, or clears it, as soon as it can; null where the browser cannot draw the 3D view. */
