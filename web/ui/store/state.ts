@@ -223,7 +223,7 @@ export interface PartRead {
 }
 
 /** A sentence about what has just happened; the same one again is another one. */
-export interface Toast {
+interface Toast {
   readonly text: string;
 }
 
