@@ -38,7 +38,10 @@ def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
     if not np.isfinite(channels).all():
         raise ValueError(f"{path} cannot be read as a song: it holds samples that are not finite")
     return librosa.resample(
-        mixed_down(channels, recipe.cancelled_share), orig_sr=rate, target_sr=recipe.sample_rate, res_type="soxr_hq"
+        mixed_down(channels, recipe.cancelled_share),
+        orig_sr=rate,
+        target_sr=recipe.sample_rate,
+        res_type="soxr_hq",
     )
 
 
