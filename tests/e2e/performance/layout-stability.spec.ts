@@ -87,8 +87,9 @@ for (const [width, height] of [
 
     if (width < 761) return;
     const last = page.getByRole('button', { name: /^Use .* as B$/ }).last();
-    // Where the list is low it is scrolled to it.
+    // Where the list is low it is scrolled to it, which fades its ends a frame later.
     await last.scrollIntoViewIfNeeded();
+    await watch.shifts();
     await watch.mark();
     await last.click();
     await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeVisible();
