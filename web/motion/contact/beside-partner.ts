@@ -13,6 +13,9 @@ import { type GlideRule, limitRootSpeed } from './root-speed';
  * brought down where they stay off the floor, stepping where both feet would slide, with legs out of each other, feet out
  * of the floor, and, unless it is switched off, hands that go with the partner's hands near them. Pure.
  *
+ * The speed is limited before collisions are avoided, since the slower path of who should circle a spinning partner leads
+ * through that partner, and afterwards, since the shifts against collisions are fast as well.
+ *
  * @param partner of the same frames and rate
  * @param rules capsules of both bodies, and how fast a root may be
  * @param steps that have been taken by each frame where the dancer steps, `stepCounts`
@@ -25,7 +28,8 @@ export function besidePartner(
   steps: Float64Array,
   { holding = true }: { readonly holding?: boolean | undefined } = {},
 ): SolvedMotion {
-  const apart = avoidCollisions(motion, partner, rules.penetration);
+  const slow = limitRootSpeed(motion, partner, rules.glide);
+  const apart = avoidCollisions(slow, partner, rules.penetration);
   const down = bringDown(limitRootSpeed(apart, partner, rules.glide));
   const whole = liftFeet(separateLegs(withFootsteps(down, steps)));
   return holding ? holdHands(whole, partner) : whole;
