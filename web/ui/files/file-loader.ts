@@ -166,6 +166,8 @@ export class FileLoader implements Files {
         return;
       case 'video':
         this.otherLeaders.cancel();
+        // What the page reads by itself is shown until the video is read.
+        if (this.store.getState().asked.some(({ kind }) => kind === 'leader')) this.cancel('leader');
         await this.otherLeaders.openVideo(file);
         return;
       case 'picture':

@@ -329,6 +329,26 @@ describe('reading files', () => {
     expect(store.getState()).toMatchObject({ leader: { name: 'a.bvh' }, asked: [] });
   });
 
+  it('a video ends the reading of an older motion file of the visitor’s, not of what the page reads by itself', async () => {
+    let finish = (): void => undefined;
+    readers.readLeader = () =>
+      new Promise((resolve) => (finish = () => resolve({ file: leaderFile(60), motion: still(60) })));
+    const video = file('dance.mov', '\u0000\u0000\u0000\u0014ftypqt  ');
+    const older = files.open([file('large.fbx', BVH)]);
+    await vi.waitFor(() => expect(store.getState().reading.leader).not.toBeNull());
+    await files.open([video]);
+    expect(store.getState().reading.leader).toBeNull();
+    finish();
+    await older;
+    expect(store.getState().leader).toBeNull();
+
+    const demo = files.openLeader(source('demo.bvh', BVH, 'demo leader'));
+    await files.open([video]);
+    finish();
+    await demo;
+    expect(store.getState().leader?.name).toBe('demo.bvh');
+  });
+
   it('an older file that fails after a newer one came shows no problem', async () => {
     let fail: (error: Error) => void = () => undefined;
     readers.readLeader = () => new Promise((_, reject) => (fail = reject));
