@@ -8,7 +8,7 @@ import type { FileBytes } from '../../motion/import/read';
 import type { AppState, InputKind } from '../store/state';
 import { leaderLoaded, leaderRefused, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
 import { apply, type Change, type Store } from '../store/store';
-import { problemShown, problemClosed } from '../store/actions/notices';
+import { problemShown, problemClosed, toastShown } from '../store/actions/notices';
 import { ask } from '../store/history/asked';
 import { loadingJoined, withoutUndo } from '../store/history/history';
 
@@ -20,6 +20,11 @@ const PROGRESS_INTERVAL_MS = 500;
 
 async function bytesOf(file: File): Promise<FileBytes> {
   return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+}
+
+async function sameBytes(...both: readonly [Blob, Blob]): Promise<boolean> {
+  const [one, other] = await Promise.all(both.map(async (blob) => new Uint8Array(await blob.arrayBuffer())));
+  return one!.length === other!.length && one!.every((value, i) => value === other![i]);
 }
 
 /** A source that is in memory. */
@@ -159,7 +164,7 @@ export class FileLoader implements Files {
     switch (kind === 'video' && as === 'song' ? 'song' : kind) {
       case 'song':
         apply(this.store, firstVisitEnded());
-        await this.openSong(file, file.name, null);
+        await this.openChosenSong(file);
         return;
       case 'leader':
         await this.openLeaderFiles([file, ...companions]);
@@ -174,6 +179,18 @@ export class FileLoader implements Files {
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));
     }
+  }
+
+  /** The visitor's song on the page stays when it is chosen again: the dance to it is there. */
+  private async openChosenSong(file: File): Promise<void> {
+    const { song } = this.store.getState();
+    const sameName = song?.label === null && song.name === file.name;
+    if (!sameName || !(await sameBytes(song.file, file))) {
+      await this.openSong(file, file.name, null);
+      return;
+    }
+    this.cancel('song');
+    apply(this.store, toastShown(`${file.name} is already on the page.`));
   }
 
   /** The first visit ends when the reading begins, so that nothing found of an earlier one cannot begin it again. */

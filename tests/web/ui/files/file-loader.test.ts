@@ -94,6 +94,26 @@ describe('reading files', () => {
     expect(problem).toBeNull();
   });
 
+  it('the same song chosen again stays as it is, and ends the reading of another one; one with other bytes is read', async () => {
+    await files.open([file('a.mp3', SONG)]);
+    const { song, history } = store.getState();
+    const { loadSong } = readers;
+    readers.loadSong = (_file, _recipe, { signal }) =>
+      new Promise((_, reject) => signal.addEventListener('abort', () => reject(new Error('ended'))));
+    const other = files.open([file('b.mp3', SONG)]);
+    await vi.waitFor(() => expect(store.getState().reading.song?.name).toBe('b.mp3'));
+    await files.open([file('a.mp3', SONG)]);
+    await other;
+    expect(store.getState()).toMatchObject({ reading: { song: null }, problem: null });
+    expect(store.getState().song).toBe(song);
+    expect(store.getState().history).toBe(history);
+    expect(store.getState().toast?.text).toBe('a.mp3 is already on the page.');
+
+    readers.loadSong = loadSong;
+    await files.open([file('a.mp3', SONG.replace('so', 'no'))]);
+    expect(store.getState().song).not.toBe(song);
+  });
+
   it('undoes a song and a leader that were dropped together in one step', async () => {
     await files.open([file('first.bvh', BVH), file('first', SONG)]);
     await files.open([file('b', SONG), file('b.bvh', BVH)]);
