@@ -266,6 +266,20 @@ describe('a drag with the pointer', () => {
     expect(page.coarse).toBe(1);
   });
 
+  it('that ends where it began is no step of undo, nor is a double click on a fader at its default', () => {
+    page.arrive();
+    page.do(change.musicSet(1));
+    page.do(change.dragBegun());
+    for (const value of [0.2, 0, 0.4, 0]) page.do(change.guidanceSet('coarse', value));
+    page.do(change.dragEnded());
+    expect(steps()).toBe(1);
+    page.do(change.dragBegun(), change.guidanceSet('coarse', 0.4), change.dragEnded());
+    page.do(change.dragBegun(), change.dragEnded(), change.clickContinued(), change.guidanceReset('coarse'));
+    expect([page.coarse, steps()]).toEqual([0, 1]);
+    page.do(change.dragBegun(), change.guidanceSet('coarse', 0.4), change.dragEnded(), undone());
+    expect([page.coarse, page.state.settings?.music, steps()]).toEqual([0, 1, 1]);
+  });
+
   it('leaves the take of the drag before, however soon it follows', () => {
     page.arrive();
     page.now += 60_000;

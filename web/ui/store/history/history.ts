@@ -79,7 +79,16 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
       { ...last, at, back: { ...back, ...last.back } }
     : { kind, at, back, edits, stage: takeOnStage(before) };
   const kept = continues ? past.slice(0, -1) : past;
+  if (continues && changesNothing(step, after))
+    return { ...patch, history: { past: kept, future: [], open: false } };
   return { ...patch, history: { past: newest([...kept, step], after), future: [], open: true } };
+}
+
+/** Whether all is as it was before a step, as after a fader was dragged and brought back. */
+function changesNothing({ back: { settings, ...others }, edits }: Step, after: AppState): boolean {
+  if (edits.length > 0 || (settings && !(after.settings && sameSettings(settings, after.settings))))
+    return false;
+  return (Object.keys(others) as (keyof typeof others)[]).every((key) => others[key] === after[key]);
 }
 
 /** The last steps, as many as there may be. */
