@@ -149,6 +149,16 @@ def test_units_are_those_that_the_page_finds() -> None:
     np.testing.assert_allclose([find_unit(size) for size in sizes], page)
 
 
+def test_the_pages_files_are_in_centimetres_however_small_their_dancers(tmp_path: Path) -> None:
+    dancer = MadeDancer(frames=8, seed=2)
+    for role, height in (("leader", 1.0), ("reactor", 0.3)):
+        path = tmp_path / f"rumba_{role}.bvh"
+        write_bvh(path, dancer, "own", unit=0.01 / height, hips_offset=(0.0, 0.0, 0.0))
+    (duet,) = read_bvh_folder(tmp_path)
+    for read, height in ((duet.leader, 1.0), (duet.reactor, 0.3)):
+        np.testing.assert_allclose(read, put_on_floor(height * dancer.positions), atol=1e-4)
+
+
 def test_folder_of_pairs_keeps_the_distance_of_partners(tmp_path: Path) -> None:
     leader, reactor = MadeDancer(frames=40, seed=2), MadeDancer(frames=36, seed=3, aside=0.9)
     write_bvh(tmp_path / "rumba_leader.bvh", leader, "Mixamo", unit=0.01)

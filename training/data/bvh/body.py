@@ -38,6 +38,8 @@ _UNITS = {
 # Leg plus trunk plus neck of an adult, and the middle and the ends of the accepted range, metres.
 _ADULT_SIZE, _MIDDLE_SIZE = 1.45, 1.18
 _MIN_SIZE, _MAX_SIZE = 0.7, 2.0
+# The same range for files that the page wrote, which are in centimetres.
+_OWN_MIN_SIZE, _OWN_MAX_SIZE = 0.2, 2.6
 
 # By the axis of the file that points up: the rotation (3, 3) from the file's axes to y up.
 _UPS: dict[str, np.ndarray] = {
@@ -137,6 +139,11 @@ def find_unit(size: float) -> float:
         raise ValueError("the joints all lie in one place: the skeleton has no size")
     metres = min(_UNITS.values(), key=lambda unit: abs(np.log(size * unit / _MIDDLE_SIZE)))
     return metres if _MIN_SIZE <= size * metres <= _MAX_SIZE else _ADULT_SIZE / size
+
+
+def is_page_size(size: float) -> bool:
+    """Whether a body of this size in centimetres can be one of the page's, whose dancers are 0.5 to 2.5 m high."""
+    return _OWN_MIN_SIZE <= size * _UNITS["centimetres"] <= _OWN_MAX_SIZE
 
 
 def _along(line: list[np.ndarray], share: float) -> np.ndarray:

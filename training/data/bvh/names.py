@@ -137,6 +137,12 @@ def _score(convention: _Convention, found: dict[str, int]) -> int:
     )
 
 
+def is_page_file(nodes: list[Node]) -> bool:
+    """Whether the page wrote the file: it has the page's joints and the point from which it hangs the body."""
+    names = [node.name for node in nodes if not node.end_site]
+    return sorted(names) == sorted([*BVH_NAMES.values(), _REFERENCE])
+
+
 def find_joints(nodes: list[Node]) -> tuple[dict[str, int], bool]:
     """The node of every joint that the file has, and whether the file has the SMPL trunk.
 
