@@ -1,4 +1,6 @@
+import type { Role } from '../common/role';
 import type { SolvedMotion } from '../motion/skeleton/clip';
+import { standingHeight } from '../motion/skeleton/kinematics';
 import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { writeBvh } from '../motion/bvh/write';
 import { type Dance, firstMotion, type MotionFormat, subsampled } from './dance';
@@ -9,8 +11,8 @@ import { writeNpz } from './npz';
 const SAMPLE_FRAMES = 40;
 /** Compressed size of BVH text as a share of its size, measured on generated dances. */
 const ZIP_RATIO = 0.37;
-/** Bytes of a mannequin in a GLB: about 7,300 vertices and 14,500 triangles. */
-const BODY_BYTES = 590_000;
+/** Bytes of a mannequin in a GLB for each metre of its height: its triangles are as large whatever its size. */
+const BODY_BYTES_A_METRE = { leader: 350_000, reactor: 323_000 };
 
 /** Estimated size of a file before it is written, bytes. */
 export function estimateBytes(format: MotionFormat, dance: Dance): number {
@@ -30,9 +32,13 @@ export function estimateBytes(format: MotionFormat, dance: Dance): number {
     case 'glb':
       // A rotation of each joint that turns and a position of the root, each with its time.
       return dance.dancers
-        .map(({ motion }) => BODY_BYTES + frames * 4 * (5 * turningJoints(motion) + 4))
+        .map(({ role, motion }) => bodyBytes(role, motion) + frames * 4 * (5 * turningJoints(motion) + 4))
         .reduce((total, bytes) => total + bytes, 0);
   }
+}
+
+function bodyBytes(role: Role, { offsets }: SolvedMotion): number {
+  return standingHeight(offsets) * BODY_BYTES_A_METRE[role];
 }
 
 /** How many joints turn at all: a generated dancer has no turns of its own in head, wrists and balls of the feet. */

@@ -61,6 +61,19 @@ test.each([60, 930])('the size of %i frames is estimated before they are written
   expect(Math.abs(estimateBytes('glb', long) / byteLength - 1)).toBeLessThan(0.05);
 });
 
+test.each([0.25, 1.45])(
+  'the size goes with the height of the dancers, %f times the usual one',
+  async (height) => {
+    const sized = ({ motion, role }: (typeof dance.dancers)[number]) => ({
+      role,
+      motion: { ...motion, offsets: motion.offsets.map((value) => value * height) },
+    });
+    const other = { ...dance, dancers: dance.dancers.map(sized) };
+    const { byteLength } = await writeGlb(other, 'dark', bodies);
+    expect(Math.abs(estimateBytes('glb', other) / byteLength - 1)).toBeLessThan(0.05);
+  },
+);
+
 test('the size counts the turns of head and wrists where a dancer has them, as a leader from a file', async () => {
   const long = madeDance(930, 'leader');
   const [leader] = long.dancers;
