@@ -15,8 +15,6 @@ export const mountHeightBox: Mount = (root, store) => {
   const input = el('input', {
     attributes: {
       type: 'number',
-      min: centimetres(HEIGHTS.min),
-      max: centimetres(HEIGHTS.max),
       step: 1,
       inputmode: 'numeric',
     },
@@ -55,6 +53,9 @@ export const mountHeightBox: Mount = (root, store) => {
     reset.hidden = set === null;
     const height = set ?? proportionalHeight(state);
     showNumber(input, height === null ? '' : String(centimetres(height)));
+    // In proportion to a very small or tall dancer it may be beyond what can be set.
+    input.min = String(centimetres(Math.min(HEIGHTS.min, height ?? HEIGHTS.min)));
+    input.max = String(centimetres(Math.max(HEIGHTS.max, height ?? HEIGHTS.max)));
     const who = roleName(generatedRole(state));
     input.setAttribute('aria-label', `Height of the ${who.toLowerCase()} in centimetres`);
     input.title =
