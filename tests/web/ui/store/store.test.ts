@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import * as change from '../../support/actions';
-import { projectCleared } from '../../../../web/ui/store/actions/project';
+import { projectCleared, projectOpened } from '../../../../web/ui/store/actions/project';
 import { undone } from '../../../../web/ui/store/history/history';
 import type { Problem } from '../../../../web/ui/store/state';
 import { small } from '../../support/small-manifest';
@@ -215,6 +215,18 @@ describe('playing', () => {
     expect(store.getState().problem?.code).toBe('second');
     change.apply(store, change.problemClosed());
     expect(store.getState()).toMatchObject({ problem: null, queuedProblems: [] });
+  });
+
+  it('forgets the notices on work that is cleared or replaced by a project, until that is undone', () => {
+    const store = ready();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    change.apply(store, change.noticeAdded('A take was damaged.'));
+    for (const replaced of [projectCleared(small, 9), projectOpened({ leader: leader(60) })]) {
+      change.apply(store, replaced);
+      expect(store.getState().notices).toEqual([]);
+      change.apply(store, undone());
+      expect(store.getState().notices).toEqual(['A take was damaged.']);
+    }
   });
 
   it('adds a notice once', () => {

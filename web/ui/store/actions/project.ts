@@ -87,7 +87,7 @@ export function takesMerged(stored: readonly Take[], synced: readonly Take[]): C
 /** A project replaces everything on the page; undo brings back what was there. */
 export function projectOpened(content: Partial<AppState>): Change {
   return (state) => ({
-    ...withUndoOfAll(state, { ...content, zoom: null, firstVisit: false }),
+    ...withUndoOfAll(state, { ...content, notices: [], zoom: null, firstVisit: false }),
     preview: null,
   });
 }
@@ -109,6 +109,7 @@ export function projectCleared(manifest: Manifest | null, seed: number): Change 
       letter: 'A',
       compare: 'off',
       countings: [],
+      notices: [],
       footLock: true,
       firstVisit: true,
       demo: 'loading',
