@@ -201,6 +201,15 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
       expect(lock.y + lock.height, String(height)).toBeLessThanOrEqual(section.y);
     }
   });
+
+  await test.step('and the reactions with their buttons in low windows', async () => {
+    for (const height of [600, 540]) {
+      await page.setViewportSize({ width: 1280, height });
+      const again = (await page.getByRole('button', { name: 'Generate again' }).boundingBox())!;
+      const section = (await page.locator('.takes-sec').boundingBox())!;
+      expect(again.y + again.height, String(height)).toBeLessThanOrEqual(section.y);
+    }
+  });
 });
 
 test('everything is restored after a reload, and from a project file after the page was emptied', async ({
