@@ -23,7 +23,7 @@ import { checkPlausible } from '../skeleton/plausible';
 import { J, JOINT_COUNT, type JointName, SMPL22 } from '../skeleton/skeleton';
 import { median } from '../math/statistics';
 import { aboutAxis, multiply } from '../math/quat';
-import { add, distance, lerp, readVec, scale, type Vec3, Y_AXIS, ZERO } from '../math/vec3';
+import { add, distance, lerp, readVec, scale, sub, type Vec3, Y_AXIS, ZERO } from '../math/vec3';
 
 /**
  * Median acceleration of the mean joint above which the frame rate is doubted, m/s^2: salsa has 1.5 to 3, leaps up to 6.
@@ -31,6 +31,12 @@ import { add, distance, lerp, readVec, scale, type Vec3, Y_AXIS, ZERO } from '..
 const MAX_ACCELERATION = 5.5;
 /** A file that `writeBvh` wrote has its floor at 0; only one moved by more than this is put there again, metres. */
 const OWN_FLOOR_TOLERANCE = 0.1;
+
+/**
+ * Least share of the frames in which the dancer stands along the axis that the file or its rest pose has for up, whatever
+ * the others are: a dancer may lie for most of a clip.
+ */
+const STANDING_SHARE = 0.1;
 
 /** Import report of a motion file. */
 export interface LeaderReport {
@@ -73,11 +79,33 @@ export interface LeaderFile {
   readonly report: LeaderReport;
 }
 
-/** Mean vector from the feet to the head over the clip, in the file's unit. */
-function meanUpright(body: Body): Vec3 {
-  let sum = ZERO;
-  for (let frame = 0; frame < body.motion.frames; frame++) sum = add(sum, measureBody(body, frame).upright);
-  return scale(sum, 1 / body.motion.frames);
+/** The axis that the file or its format states as up, or along which the body stands in the rest pose; null without one. */
+function expectedUp(
+  { joints, rest, upAxis }: MotionSource,
+  { map: { nodes }, motion }: Body,
+): AxisName | null {
+  // Files of positions have no rest pose: in them no joint turns.
+  const turns = [...nodes.values()].some((node) =>
+    motion.rotation(node).some((value, i) => i % 4 < 3 && value),
+  );
+  if (upAxis || !turns) return upAxis;
+  const { places } = worldPose(joints, rest, 0);
+  const at = (name: JointName): Vec3 | undefined => places[nodes.get(name) ?? -1];
+  const [top, left, right] = [at('head') ?? at('neck'), at('left_ankle'), at('right_ankle')];
+  if (!top || !left || !right) return null;
+  const found = findUp(sub(top, lerp(left, right, 0.5)));
+  return found.certain ? found.name : null;
+}
+
+/**
+ * The axis that points up in the mean over the clip, or the expected one where the dancer stands along it often enough.
+ */
+function bodyUp(body: Body, expected: AxisName | null): ReturnType<typeof findUp> {
+  const { frames } = body.motion;
+  const uprights = Array.from({ length: frames }, (_, frame) => measureBody(body, frame).upright);
+  const along = uprights.map(findUp).filter(({ name, certain }) => certain && name === expected);
+  if (along.length >= STANDING_SHARE * frames) return along[0]!;
+  return findUp(scale(uprights.reduce(add, ZERO), 1 / frames));
 }
 
 /** Median over the clip of a value that `measureBody` gives. */
@@ -146,7 +174,7 @@ function orientedBody(source: MotionSource, map: JointMap, fps: number, options:
   const motion = sampleNodes(source, nodesOfBody(source.joints, map), fps, FPS);
   if (motion.frames < 2) throw tooShort(source, fps);
   const asWritten = withToes(source.joints, map, motion);
-  const found = findUp(meanUpright(asWritten));
+  const found = bodyUp(asWritten, expectedUp(source, asWritten));
   const named = (name: AxisName | null | undefined) => UP_AXES.find((axis) => axis.name === name);
   const up = named(options.up) ?? (found.certain ? found : (named(source.upAxis) ?? found));
   const certain = options.up !== undefined || found.certain || source.upAxis !== null;

@@ -109,6 +109,23 @@ describe('units and axes', () => {
     expect(joint(file, 0, 'head')[1]).toBeGreaterThan(1.2);
   });
 
+  test.each(['y', 'z'] as const)('%s up, and a dancer who lies most of the time', (up) => {
+    const { text } = madeBvh({ joints: madeBody(MIXAMO), up });
+    const [head, ...rows] = text.split(/(?<=Frame Time: .*\n)/);
+    const frames = rows.join('').trim().split('\n');
+    const lying = frames.map((row, frame) => {
+      if (frame < 8) return row;
+      const [x, y, z, ...angles] = row.split(' ').map(Number) as [number, number, number, ...number[]];
+      // Falls onto the back, the feet where they were.
+      const place = up === 'y' ? [x, 15, z - y] : [x, y + z, 15];
+      return [...place, 0, -90, 0, ...angles.slice(3)].join(' ');
+    });
+    const file = leaderBvh([head, ...lying].join('\n'));
+    expect(file.report).toMatchObject({ upAxis: up, warnings: [] });
+    expect(joint(file, 0, 'head')[1]).toBeGreaterThan(1.2);
+    expect(joint(file, 30, 'head')[1]).toBeLessThan(0.5);
+  });
+
   test.each(UP_AXES)('$name up: the axis is turned upright', ({ axis, turn }) => {
     expect(distance(rotate(turn, axis), [0, 1, 0])).toBeLessThan(1e-12);
   });
