@@ -209,3 +209,23 @@ test('the card says how much of the model has come, and nothing in the bar gives
   await expect(badge.getByRole('button', { name: 'Try again' })).toBeVisible();
   expect((await chip.boundingBox())!.width).toBeGreaterThan(wide - 40);
 });
+
+test.describe('a phone of usual size', () => {
+  test.use({ viewport: { width: 390, height: 844 } });
+
+  test('shows the whole picture of a video while it is read', async ({ page }) => {
+    const app = new App(page);
+    await app.open();
+    await app.settled();
+    await page.getByRole('button', { name: 'A sample video' }).tap();
+    const panel = page.getByRole('region', { name: 'Video of the leader' });
+    const box = async () => (await panel.locator('.frame').boundingBox())!;
+    // The shape of this video, which is upright.
+    await expect.poll(async () => (await box()).height / (await box()).width).toBeGreaterThan(1);
+    await expect(panel.getByRole('button', { name: 'Cancel' })).toBeVisible();
+    const [frame, whole] = [await box(), await panel.boundingBox()];
+    expect(frame.y + frame.height).toBeLessThanOrEqual(whole!.y + whole!.height);
+    await panel.getByRole('button', { name: 'Cancel' }).tap();
+    await expect(panel).toBeHidden();
+  });
+});
