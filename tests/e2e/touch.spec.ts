@@ -225,6 +225,11 @@ test.describe('a phone of usual size', () => {
     await expect(panel.getByRole('button', { name: 'Cancel' })).toBeVisible();
     const [frame, whole] = [await box(), await panel.boundingBox()];
     expect(frame.y + frame.height).toBeLessThanOrEqual(whole!.y + whole!.height);
+    // On its side, the dancers have more than half of the stage.
+    await page.setViewportSize({ width: 844, height: 390 });
+    const stage = (await page.locator('#stage').boundingBox())!;
+    await expect.poll(async () => (await panel.boundingBox())!.width / stage.width).toBeLessThan(0.4);
+    await page.setViewportSize({ width: 390, height: 844 });
     await panel.getByRole('button', { name: 'Cancel' }).tap();
     await expect(panel).toBeHidden();
   });
