@@ -15,8 +15,7 @@ const HEADER_TIMEOUT_MS = 5000;
 /** Bytes that `isPlaylist` looks at. */
 const PLAYLIST_HEAD_BYTES = 512;
 
-const PLAYLIST =
-  /^(#EXT|\[playlist\]|<\?xml[^]*<playlist|<playlist|<asx|<smil|<mpd|(https?|file|rtsp):\/\/)/i;
+const PLAYLIST = /^(#EXT|\[playlist\]|(<\?xml[^]*)?<(playlist|asx|smil|mpd)|(https?|file|rtsp):\/\/)/i;
 
 /** A song as the browser decodes it. */
 export interface DecodedSong {
@@ -72,7 +71,7 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
 }
 
 /**
- * Whether a file is a list of songs (M3U, HLS, PLS, XSPF, ASX) instead of a song. A media element that gets one asks the
+ * Whether a file is a list of songs (M3U, HLS, PLS, XSPF, ASX, SMIL, DASH) instead of a song. A media element that gets one asks the
  * addresses in it.
  *
  * @param head its first bytes

@@ -41,6 +41,8 @@ it('goes on between two positions of a song that comes in steps, at its speed, b
   expect(withSong(3.25)).toBeCloseTo(5.28);
   pass(1000);
   expect(withSong(3.25), 'a song that waits for its data').toBeCloseTo(5.35);
+  clock.restart(5.25);
+  expect(withSong(3.25), 'a song that starts where it was left').toBe(5.25);
 });
 
 it('never runs backwards, nor on beyond the end of the song', () => {

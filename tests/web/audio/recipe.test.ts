@@ -12,6 +12,10 @@ describe('the audio recipe', () => {
     ['an even kernel', { ...recipe, hpss_kernel: 30 }, /hpss_kernel.*odd/],
     ['a window that is no power of two', { ...recipe, n_fft: 2000 }, /n_fft.*power of two/],
     ['columns that do not add up', { ...recipe, features: 53 }, /features/],
+    ['a column too many', { ...recipe, features: 55 }, /features/],
+    ['more cepstra than bands', { ...recipe, mels: recipe.mfcc - 1 }, /mfcc as mels/],
+    ['a band above half the rate', { ...recipe, mel_fmax: recipe.sample_rate / 2 + 1 }, /mel_fmax/],
+    ['a band without width', { ...recipe, mel_fmin: recipe.mel_fmax }, /mel_fmin below/],
     ['nothing', undefined, /audio/],
   ])('is refused with %s', (_, block, words) => {
     expect(() => readRecipe(block)).toThrow(

@@ -21,6 +21,11 @@ describe('the waveform of a song', () => {
     expect([high[0], high[1], high[998], high[999]]).toEqual([127, 0, 0, 127]);
   });
 
+  it('has a step for what is left at its end', () => {
+    const { high } = waveformOf(Float32Array.of(0.1, 0.1, 0.5), 2000);
+    expect([...high]).toEqual([25, 127]);
+  });
+
   it('is small: two thousand bytes a second', () => {
     const { low, high } = waveformOf(new Float32Array(15360), 15360);
     expect(low.byteLength + high.byteLength).toBe(2000);
