@@ -1,7 +1,9 @@
 /** C3D files that state little, or other than what they hold. */
 import { describe, expect, test } from 'vitest';
 import { readC3dFile } from '../../../../web/motion/import/c3d/file';
+import { jointsOfMarkers } from '../../../../web/motion/import/c3d/plug-in-gait';
 import { readLeaderFile } from '../../../../web/motion/import/read';
+import type { Vec3 } from '../../../../web/motion/math/vec3';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import { writeC3d } from '../../support/motion-files/c3d';
 import { madeMotion, type MadeMotion, worstMillimetres } from '../../support/motion-files/made-motion';
@@ -80,6 +82,38 @@ test('markers without a label are no markers of the body', () => {
   fewer[text.indexOf('LABELS2')] = 'X'.charCodeAt(0);
   const { labels } = readC3dFile(fewer);
   expect(labels).toEqual([...readC3dFile(bytes).labels.slice(0, 23), '*23']);
+});
+
+test('the frame rate is that of the parameters where the head states another one', () => {
+  const bytes = writeC3d(dance);
+  new DataView(bytes.buffer).setFloat32(20, 0, true);
+  expect(readC3dFile(bytes).rate).toBe(30);
+});
+
+test('elbows of hanging arms are half their width inwards of their markers', () => {
+  const side = (l: string, sign: number): [string, Vec3][] => [
+    [`${l}ASI`, [sign * 0.12, 1, 0.1]],
+    [`${l}PSI`, [sign * 0.05, 1, -0.1]],
+    [`${l}KNE`, [sign * 0.15, 0.5, 0]],
+    [`${l}ANK`, [sign * 0.15, 0.1, 0]],
+    [`${l}TOE`, [sign * 0.1, 0.05, 0.15]],
+    [`${l}SHO`, [sign * 0.2, 1.45, 0]],
+    [`${l}ELB`, [sign * 0.245, 1.1, 0]],
+    [`${l}FIN`, [sign * 0.2, 0.85, 0]],
+  ];
+  const markers = new Map<string, Vec3>([
+    ...side('L', 1),
+    ...side('R', -1),
+    ['C7', [0, 1.5, -0.04]],
+    ['CLAV', [0, 1.5, 0.06]],
+  ]);
+  const joints = jointsOfMarkers(
+    (label) => markers.get(label)!,
+    (label) => markers.has(label),
+    1,
+  );
+  expect(joints.get('left_elbow')![0]).toBeCloseTo(0.2, 2);
+  expect(joints.get('right_elbow')![0]).toBeCloseTo(-0.2, 2);
 });
 
 test('of two markers with one label the first is taken', async () => {

@@ -110,6 +110,25 @@ describe('rotations', () => {
   });
 });
 
+test('rotations of a body that lies so that up is not clear have z up, as AMASS does', async () => {
+  const poses = new Float32Array(40 * 66).map((_, i) => (i % 66 === 0 ? Math.PI / 2 + 0.9 : 0));
+  const { report } = await read('a.npz', writeArchive({ poses: { shape: [40, 66], data: poses } }));
+  expect(report).toMatchObject({ upAxis: 'z', warnings: [expect.stringContaining('average adult')] });
+});
+
+test('an array of several values is no frame rate', async () => {
+  const joints = { shape: [40, 22, 3], data };
+  const fps = { shape: [2], data: Float64Array.of(60, 30) };
+  const { report } = await read('a.npz', writeArchive({ joints, fps }));
+  expect(report.sourceFps).toBe(30);
+  expect(report.remarks).toEqual(['The file states no frame rate; 30 was taken.']);
+});
+
+test('an archive whose only array is damaged is called damaged', async () => {
+  const bytes = zipSync({ 'joints.npy': new TextEncoder().encode('no array') });
+  await expect(read('a.npz', bytes)).rejects.toMatchObject({ code: 'unreadable-file' });
+});
+
 test('joints whose bones change their lengths all the time are doubted', async () => {
   const grown = data.map((value, i) => value * (1 + 0.4 * Math.sin(Math.floor(i / 66) / 3)));
   const bytes = writeArchive({ joints: { shape: [40, 22, 3], data: grown } });

@@ -3,6 +3,8 @@ import { describe, expect, test } from 'vitest';
 import { npyBytes } from '../../../../web/export/npy';
 import { withoutGaps } from '../../../../web/motion/import/gaps';
 import { readLeaderFile } from '../../../../web/motion/import/read';
+import { readCsv } from '../../../../web/motion/import/tables/csv';
+import { readTrc } from '../../../../web/motion/import/tables/trc';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import type { ImportOptions } from '../../../../web/motion/retarget/options';
 import { CONVENTIONS } from '../../support/motion-files/conventions';
@@ -224,6 +226,15 @@ describe('TRC', () => {
   });
 
   test.each([
+    ['mm', 'millimetres'],
+    ['Meters', 'metres'],
+    ['furlongs', undefined],
+  ])('the unit is the stated one: %s', (word, name) => {
+    const { unit } = readTrc(writeTrc(['a'], [[[1, 2, 3]], [[1, 2, 3]]], word));
+    expect(unit?.name).toBe(name);
+  });
+
+  test.each([
     [(text: string) => text.replace(/^Frame#.*$/m, 'Frame#\tTime'), 'names no markers'],
     [(text: string) => text.replace(/^(7\t[^\t]*\t)[^\t]*/m, '$1abc'), '"abc" in frame 7 is not a number'],
   ])('damage is named (%#)', async (damage, message) => {
@@ -251,6 +262,12 @@ describe('tables of Motive', () => {
       sourceFps: 60,
       parts: [],
     });
+  });
+
+  test('the unit is the stated one', () => {
+    const text = writeMotive({ Anna: anna });
+    expect(readCsv(text, 0).unit?.name).toBe('millimetres');
+    expect(readCsv(text.replace('Millimeters', 'Centimeters'), 0).unit?.name).toBe('centimetres');
   });
 
   test('one of two skeletons', async () => {

@@ -8,8 +8,12 @@ export interface MadeKey {
   readonly move?: Vec3;
   readonly turn?: Quat;
   /** x1, y1, x2, y2 of all curves, 0 to 127; a line where it is left out. */
-  readonly curve?: readonly [number, number, number, number];
+  readonly curve?: Curve;
+  /** Those of x, y, z and the rotation, where they differ. */
+  readonly curves?: readonly [Curve, Curve, Curve, Curve];
 }
+
+type Curve = readonly [number, number, number, number];
 
 /** Bytes of each character in Shift-JIS, found by decoding all pairs. */
 const SHIFT_JIS = new Map<string, readonly number[]>();
@@ -34,13 +38,14 @@ export function writeVmd(
   const view = new DataView(out.buffer);
   out.set(new TextEncoder().encode('Vocaloid Motion Data 0002'));
   view.setUint32(50, keys.length, true);
-  keys.forEach(({ bone, frame, move = [0, 0, 0], turn = [0, 0, 0, 1], curve = [20, 20, 107, 107] }, i) => {
+  keys.forEach(({ bone, frame, move = [0, 0, 0], turn = [0, 0, 0, 1], ...key }, i) => {
     const at = 54 + 111 * i;
+    const { curve = [20, 20, 107, 107], curves = [curve, curve, curve, curve] } = key;
     out.set(encoded(bone), at);
     view.setUint32(at + 15, frame, true);
     const values = [move[0], move[1], -move[2], -turn[0], -turn[1], turn[2], turn[3]];
     values.forEach((value, place) => view.setFloat32(at + 19 + 4 * place, value, true));
-    const row = curve.flatMap((value) => [value, value, value, value]);
+    const row = [0, 1, 2, 3].flatMap((point) => curves.map((one) => one[point]!));
     // Every row repeats the first one, moved by one more; the first has a switch of physics in its bytes 2 and 3.
     for (let shift = 0; shift < 4; shift++) out.set(row.slice(shift), at + 47 + 16 * shift);
     out.set([0x63, 0x0f], at + 49);

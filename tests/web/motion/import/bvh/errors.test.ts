@@ -206,6 +206,8 @@ describe('an invalid skeleton', () => {
   test('joints that never end', () => {
     const endless = 'HIERARCHY\nROOT a\n' + '{ OFFSET 0 0 0 JOINT b\n'.repeat(500);
     expectFailure(endless, 'bad-hierarchy', 'deep');
+    const wide = `HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n${'End Site\n{\nOFFSET 0 0 1\n}\n'.repeat(1000)}}`;
+    expectFailure(wide, 'bad-hierarchy', 'more than 1000 joints');
   });
   test('a body without size', () => {
     const flat = good.replaceAll(/OFFSET .*/g, 'OFFSET 0 0 0');
