@@ -45,6 +45,11 @@ describe('following smoothly', () => {
     expect(followSmoothly({ ...input, fitDistance: 4 }, 0.1, true).distance).toBeLessThan(5);
     expect(followSmoothly({ ...input, fitDistance: 6, mayZoom: false }, 0.1, true).distance).toBeNull();
   });
+
+  it('is not there yet while it moves back; coming closer needs no frames of its own', () => {
+    expect(followSmoothly({ ...input, fitDistance: 6 }, 0.1, false).moving).toBe(true);
+    expect(followSmoothly({ ...input, fitDistance: 4 }, 0.1, true).moving).toBe(false);
+  });
 });
 
 describe('turning', () => {
@@ -80,6 +85,8 @@ describe('following by jumps', () => {
   it('moves back when they do not fit', () => {
     expect(followByJumps({ ...input, fitDistance: 6 }).distance).toBe(6);
     expect(followByJumps({ ...input, fitDistance: 6, mayZoom: false }).distance).toBeNull();
+    const away = followByJumps({ ...input, offset: [1, 0], fitDistance: 6, mayZoom: false });
+    expect(away).toMatchObject({ shift: [1, 0], distance: null });
     expect(followByJumps({ ...input, distance: 8 }).distance).toBe(5);
   });
 });

@@ -36,6 +36,7 @@ describe('framing', () => {
   it('sees a dancer alone from the front', () => {
     const { sideHeading } = measureCouple([figure(0, 0)]);
     expect(Math.cos(sideHeading)).toBeGreaterThan(0.7);
+    expect(Math.abs(Math.sin(sideHeading)), 'not head-on').toBeGreaterThan(0.3);
   });
 
   it('measures the middle and the radius of the couple', () => {
@@ -44,6 +45,13 @@ describe('framing', () => {
     expect(couple.z).toBeCloseTo(1, 6);
     expect(couple.radius).toBeGreaterThan(Math.SQRT2 - 1e-6);
     expect(couple.radius).toBeLessThan(1.6);
+  });
+
+  it('has room for other dancers beside them, but stays with the couple', () => {
+    const [leader, reactor] = [figure(0.3, 0), figure(-0.3, 0)];
+    const { x, radius } = measureCouple([leader, reactor], [figure(3, 0)]);
+    expect(x).toBeCloseTo(0, 6);
+    expect(radius).toBeGreaterThan(2.9);
   });
 
   it('keeps both dancers inside the picture, wide or narrow, heads and feet too, from any side, as far as it goes back', () => {
@@ -109,7 +117,11 @@ describe('framing', () => {
     expect(reframed(wide, couple, 0.9).distance).toBeCloseTo(6, 6);
     expect(reframed(wide, couple, 2.4).distance).toBe(3);
     expect(reframed({ ...wide, ownDistance: false }, couple, 0.9).distance).toBe(fitDistance(couple, 0.9));
-    expect(reframed({ ...wide, view: 'top' }, couple, 1.8).distance).toBeCloseTo(3, 6);
+    const top = { ...wide, view: 'top' } as const;
+    expect(reframed(top, couple, 1.8).distance).toBeCloseTo(3, 6);
+    const [narrow, before] = [0.6, 1.8].map((aspect) => shotOf('top', couple, aspect, 0).distance);
+    expect(narrow).toBeGreaterThan(before! + 0.5);
+    expect(reframed(top, couple, 0.6).distance).toBeCloseTo((3 * narrow!) / before!, 6);
   });
 
   it('is far where bodies are small, and not near the eye or on many pixels', () => {
