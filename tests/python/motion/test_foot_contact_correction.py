@@ -66,6 +66,14 @@ def test_a_rising_foot_is_not_in_contact() -> None:
     assert torch.allclose(correct_foot_contact(motion, STRENGTH), motion, atol=2e-3)
 
 
+def test_of_two_planted_feet_the_slower_one_counts_for_more() -> None:
+    motion = standing()
+    motion[:, [8, 11], 0] += (torch.arange(FRAMES) * 0.5 / FPS)[:, None]
+    velocity, planted = correction._planted_velocity(motion)
+    assert planted.min() > 0.9
+    assert velocity[0].abs().max() < 0.05
+
+
 def test_only_the_place_on_the_floor_changes_and_the_whole_body_moves() -> None:
     motion = torch.from_numpy(made_duet(150, 5).reactor)
     shift = correct_foot_contact(motion, STRENGTH) - motion

@@ -9,7 +9,7 @@ import torch
 from tests.python.support.duets import made_duet
 from training.config import FrameConfig
 from training.motion.heading import into_frame, out_of_frame
-from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading
+from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading, smoothed_root
 from training.motion.rigid_body import bone_lengths, constant_bones, rigid_body, steady_bones
 from training.motion.skeleton import PARENTS, TOES
 from training.motion.streams import (
@@ -84,6 +84,33 @@ def test_leader_features_hold_height_velocity_and_turn_rate() -> None:
     turning = torch.stack([moved(leader[:1], float(a), (0, 0))[0] for a in spin])
     rate = leader_features(turning, smoothed_heading(turning, FRAME))[60:140, 67]
     assert torch.allclose(rate, torch.full_like(rate, np.sin(0.05) * 30), atol=0.02)
+
+
+def test_velocity_and_turn_rate_of_a_frame_are_those_since_the_one_before() -> None:
+    time = torch.arange(40.0)
+    leader = torch.zeros(40, 22, 3)
+    leader[..., 0] = 0.001 * (time**2)[:, None]
+    angle = 0.001 * time**2
+    features = leader_features(leader, torch.tensor([0.0, 1.0]).expand(40, 2))
+    speed = leader[:, 0, 0].diff() * 30
+    assert torch.allclose(features[1:, 64], speed, atol=1e-5)
+    assert features[0, 64] == features[1, 64], "the first frame has none before"
+    turning = leader_features(leader, torch.stack([angle.sin(), angle.cos()], dim=-1))[:, 67]
+    assert torch.allclose(turning[1:], angle.diff().sin() * 30, atol=1e-4)
+    assert turning[0] == turning[1]
+
+
+def test_the_leaders_place_is_smoothed_and_the_height_kept() -> None:
+    time = torch.arange(60.0)
+    leader = torch.zeros(60, 22, 3)
+    jerk = 0.02 * (-1) ** time
+    leader[:, 0] = torch.stack([0.02 * time + jerk, 1 + jerk, -0.01 * time + jerk], dim=-1)
+    root = smoothed_root(leader)
+    assert root.shape == (60, 1, 3)
+    middle = slice(10, -10)
+    assert torch.allclose(root[middle, 0, 0], 0.02 * time[middle], atol=1e-3)
+    assert torch.allclose(root[middle, 0, 2], -0.01 * time[middle], atol=1e-3)
+    assert torch.equal(root[:, 0, 1], leader[:, 0, 1])
 
 
 def test_placement_holds_the_reactors_own_height() -> None:

@@ -50,6 +50,9 @@ def test_forward_and_backward_differ_when_one_has_more_beats():
     echo = bed(pulsing(600, sparse, 120), pulsing(600, dense, 30))
     assert echo["forward"] == pytest.approx(1.0)
     assert echo["backward"] < 0.4
+    # Three standard deviations of the score's Gaussian, over the distance of two beats.
+    assert echo["forward_chance"] == pytest.approx(3 * np.sqrt(2 * np.pi) / 30, rel=0.1)
+    assert echo["backward_chance"] == pytest.approx(3 * np.sqrt(2 * np.pi) / 120, rel=0.3)
     assert echo["reactor_beats"] > 3 * echo["leader_beats"]
 
 
@@ -80,4 +83,8 @@ def test_bas_has_its_value_inside_its_interval():
     spread = 1.96 * (1 - np.exp(-0.5)) / 2 / np.sqrt(10)
     assert mixed["high"] - mixed["value"] == pytest.approx(spread, rel=0.2)
     assert mixed["value"] - mixed["low"] == pytest.approx(spread, rel=0.2)
+    # Scores of ten values, so that the interval is not one of a few steps.
+    varied = bas(beats + np.arange(10), motion)
+    scores = np.exp(-(np.arange(10) ** 2) / 18)
+    assert varied["high"] - varied["low"] == pytest.approx(2 * 1.96 * scores.std() / np.sqrt(10), rel=0.08)
     assert np.isnan(bas(np.array([], dtype=int), motion)["value"])

@@ -35,6 +35,19 @@ def test_lifted_and_falling_feet_are_not_in_contact():
     assert np.isnan(nothing["slide_speed"])
 
 
+def test_a_foot_that_is_up_for_most_of_the_time_is_in_contact_while_it_is_down():
+    motion = standing(100)
+    motion[30:, [7, 10], 1] += 0.2
+    assert foot_skating(motion)["contact_share"] == pytest.approx((29 / 99 + 1) / 2)
+
+
+def test_feet_in_the_air_do_not_skate():
+    motion = standing(300)
+    motion[100:200, [8, 11], 1] += 0.5
+    motion[:, [8, 11], 0] += np.clip(0.03 * (np.arange(300) - 100), 0, 3)[:, None]
+    assert foot_skating(motion)["skate_share"] == pytest.approx(0.0, abs=0.01)
+
+
 def test_contact_is_against_each_joints_own_floor():
     assert foot_skating(standing(50) + np.array([0.0, 1.0, 0.0]))["contact_share"] == pytest.approx(1.0)
 
@@ -50,6 +63,13 @@ def test_pfc_by_hand(slower: str):
     motion[:, [7, 10, 8, 11], 1] += 0.5 * np.arange(5)[:, None]  # heights do not count
     assert physical_foot_contact(motion) == pytest.approx(1e4 * 0.02 * 0.04 * (1 + 1 + 0) / 3)
     assert physical_foot_contact(standing(9)) == 0.0
+
+
+def test_pfc_takes_the_feet_after_the_root_has_changed_its_speed():
+    motion = standing(5)
+    motion[:, 0, 0] += np.array([0.0, 0.0, 0.01, 0.02, 0.03])
+    motion[:, [7, 10, 8, 11], 0] += np.array([0.0, 0.0, 0.02, 0.04, 0.06])[:, None]
+    assert physical_foot_contact(motion) == pytest.approx(1e4 * 0.02**2 / 3)
 
 
 def test_pfc_does_not_count_falling():

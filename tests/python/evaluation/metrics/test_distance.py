@@ -33,6 +33,12 @@ def test_heading_facing_and_root_distance():
     assert root_distance(leader, partner) == pytest.approx(np.full(61, 0.7))
 
 
+def test_heading_is_that_of_hips_and_shoulders_together():
+    body = random_body()
+    body[:, 16], body[:, 17] = (0.0, 1.4, -0.1), (0.0, 1.4, 0.1)  # twisted to the left, as wide as the hips
+    assert heading(body)[0] == pytest.approx(np.array([1.0, 1.0]) / np.sqrt(2))
+
+
 def test_nearest_hands_of_four_pairs():
     leader, reactor = random_body(), random_body()
     leader[:, 20], leader[:, 21] = (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)

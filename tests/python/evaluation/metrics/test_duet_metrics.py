@@ -5,9 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.python.support.bodies import swinging_body
+from tests.python.support.bodies import random_walk, swinging_body
 from tests.python.support.held_out import made_music
+from training.evaluation.metrics.beats import bas, bed, music_beats
+from training.evaluation.metrics.contact import foot_skating, physical_foot_contact
+from training.evaluation.metrics.distance import facing, hand_distance, hands_held, root_distance, wasserstein
 from training.evaluation.metrics.duet import clip_count, duet_metrics, set_metrics
+from training.evaluation.metrics.errors import bone_variation, mpjpe, root_error
+from training.evaluation.metrics.penetration import penetration
+from training.evaluation.metrics.repetition import repetition
+from training.evaluation.metrics.speed import band_decibels, joint_acceleration, joint_speed
 
 
 def test_the_truth_measured_against_itself():
@@ -23,6 +30,49 @@ def test_the_truth_measured_against_itself():
     assert further | {"repeat_share", "repeat_mm"} <= set(row)
     short = duet_metrics(leader[:150], truth[:150], truth[:150])
     assert set(row) - set(short) == {k for k in row if k.startswith(("bas", "repeat"))}
+
+
+def test_every_measure_is_of_the_dancers_that_it_names():
+    leader, truth, made = (swinging_body(400, seed) for seed in (3, 4, 5))
+    # Faster, larger, elsewhere, and without a period.
+    made = made * 1.2 + random_walk(400) + np.array([1.5, 0.0, 0.0])
+    made[200:] += np.array([20.0, 0.0, 0.0])  # away from the leader, whose hand is held before
+    made[:200, 20] = leader[:200, 20]
+    music = made_music(400, 20)
+    row = duet_metrics(leader, truth, made, music)
+    echo, real_echo = bed(leader, made), bed(leader, truth)
+    aligned = bas(music_beats(music), made)
+    beside = {"truth": root_distance(leader, truth), "made": root_distance(leader, made)}
+    expected = {
+        "mpjpe_mm": mpjpe(truth, made),
+        "root_error_mm": root_error(leader, truth, made),
+        "speed_ratio": joint_speed(made) / joint_speed(truth),
+        "acceleration_ratio": joint_acceleration(made) / joint_acceleration(truth),
+        "distance_ratio": np.median(beside["made"]) / np.median(beside["truth"]),
+        "distance_w1_m": wasserstein(beside["truth"], beside["made"]),
+        "hands_w1_m": wasserstein(hand_distance(leader, truth), hand_distance(leader, made)),
+        "hands_held": hands_held(leader, made),
+        "facing_w1_deg": wasserstein(facing(leader, truth), facing(leader, made)),
+        "pfc": physical_foot_contact(made),
+        "bone_variation": bone_variation(made),
+        "bed_forward": echo["forward"],
+        "bed_forward_chance": echo["forward_chance"],
+        "bed_backward": echo["backward"],
+        "bed_backward_chance": echo["backward_chance"],
+        "beats_ratio": echo["reactor_beats"] / real_echo["reactor_beats"],
+        "bas": aligned["value"],
+        "bas_chance": aligned["chance"],
+        "bas_low": aligned["low"],
+        "bas_high": aligned["high"],
+        **{f"energy_db {band}": value for band, value in band_decibels(truth, made).items()},
+        **foot_skating(made),
+        **penetration(leader, made),
+        **repetition(made),
+    }
+    assert {name: row[name] for name in expected} == pytest.approx(expected, nan_ok=True)
+    others = duet_metrics(leader, truth, truth, music)
+    same = {name for name in expected if row[name] == others[name]}
+    assert same == set(), "these would not tell one dancer from the other"
 
 
 def test_sets_of_clips():

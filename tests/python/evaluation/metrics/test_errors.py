@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.python.support.bodies import random_body, random_walk
-from training.evaluation.metrics import quick_report
+from training.evaluation.metrics import mean_report, quick_report
 from training.evaluation.metrics.errors import (
     bone_variation,
     mpjpe,
@@ -59,14 +59,19 @@ def test_quick_report():
     time = np.arange(61)[:, None, None] / 30
     leader = random_body()
     truth = random_body() + np.array([0.0, 0.0, 0.5]) + time * np.array([0.0, 1.0, 0.0])
-    generated = random_body() + np.array([0.0, 0.0, 1.0]) + time * np.array([0.0, 0.5, 0.0])
+    generated = random_body() + np.array([0.0, 0.0, 2.0]) + time * np.array([0.0, 0.5, 0.0])
     report = quick_report(leader, truth, generated)
-    offset = np.array([0.0, 0.0, 0.5]) - time[:, 0] * np.array([0.0, 0.5, 0.0])
-    distances = [np.median(np.hypot(d, time[:, 0, 0] * v)) for d, v in ((1.0, 0.5), (0.5, 1.0))]
+    offset = np.array([0.0, 0.0, 1.5]) - time[:, 0] * np.array([0.0, 0.5, 0.0])
+    distances = [np.median(np.hypot(d, time[:, 0, 0] * v)) for d, v in ((2.0, 0.5), (0.5, 1.0))]
     assert report["mpjpe_mm"] == pytest.approx(0.0, abs=1e-9)
     assert report["root_error_mm"] == pytest.approx(1000 * np.linalg.norm(offset, axis=-1).mean())
     assert report["speed_ratio"] == pytest.approx(0.5)
     assert report["distance_ratio"] == pytest.approx(distances[0] / distances[1])
+
+
+def test_a_mean_of_reports_is_of_what_all_of_them_have():
+    assert mean_report([{"a": 1.0, "b": 2.0}, {"a": 3.0}]) == {"a": 2.0}
+    assert mean_report([]) == {}
 
 
 def test_dancers_in_one_place_count_among_the_nearest():
