@@ -5,11 +5,13 @@ import type { FileReaders } from '../../../../web/ui/store/services';
 import type { TabLockApis } from '../../../../web/ui/project/tab-lock';
 import type { FoundProject } from '../../../../web/ui/project/records';
 import { storedProject, type StoredProject } from '../../../../web/ui/project/stored-project';
+import { Autosave } from '../../../../web/ui/project/autosave';
 import { Project } from '../../../../web/ui/project/project';
 import { notes, persistenceText } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
 import { undone } from '../../../../web/ui/store/history/history';
+import type { AppState } from '../../../../web/ui/store/state';
 import { currentInputs } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { leader, still } from '../../support/made-state';
@@ -157,6 +159,73 @@ describe('autosave', () => {
       await pass(16);
     }
     expect(writes).toHaveLength(2);
+  });
+
+  it('writes what else of the page is kept: how it is counted, drawn, compared and repeated', async () => {
+    made('a');
+    made('bb');
+    await pass(0);
+    const { playback } = store.getState();
+    const region = { from: 0.1, to: 0.6 };
+    const counting = { song: 'a.mp3', bytes: 3, beatsPerBar: 3, rate: 2, one: 0.5 } as const;
+    const patches: readonly Partial<AppState>[] = [
+      { footLock: !store.getState().footLock },
+      { countings: [counting] },
+      { other: 'a' },
+      { compare: 'ghost' },
+      { letter: 'B' },
+      { playback: { ...playback, region } },
+      { playback: { ...playback, region, loop: !playback.loop } },
+    ];
+    for (const patch of patches) {
+      writes = [];
+      store.setState(patch);
+      await pass(0);
+      expect(writes, Object.keys(patch).join()).toHaveLength(1);
+    }
+  });
+
+  it('writes no more where a newer page has written', async () => {
+    room = 0;
+    failure = new DOMException('Of tomorrow.', 'VersionError');
+    made('a');
+    await pass(0);
+    expect(store.getState().autosave).toBe('newer');
+    room = 9;
+    made('bb');
+    await pass(60_000);
+    expect(writes).toEqual([]);
+  });
+
+  it('goes on when the other tab ends, also where what that has written cannot be read', async () => {
+    made('a');
+    await pass(0);
+    project.dispose();
+    let free = (): void => undefined;
+    const request = (...[, options, held]: Parameters<LockManager['request']>) =>
+      options.ifAvailable
+        ? held(null)
+        : new Promise<void>((resolve) => (free = resolve)).then(() => held({} as Lock));
+    const storage = {
+      read: () => Promise.resolve(null),
+      write: ({ takes }: StoredProject) => Promise.resolve(void writes.push(takes.map(({ name }) => name))),
+      removeOwn: () => Promise.resolve(),
+      clear: () => Promise.resolve(),
+    };
+    const tabs = { name: 'tabs', locks: { request } as unknown as TabLockApis['locks'], channel: undefined };
+    const callbacks = { merge: never, framing: () => null, takeStored: () => undefined };
+    const autosave = new Autosave(store, storage, tabs, callbacks);
+    writes = [];
+    await autosave.read();
+    autosave.start();
+    await pass(1000);
+    expect(store.getState().autosave).toBe('elsewhere');
+    expect(writes).toEqual([]);
+    free();
+    await pass(0);
+    expect(writes).toEqual([[null]]);
+    expect(store.getState().autosave).toBe('stored');
+    autosave.dispose();
   });
 
   it('empties the storage of everything when the visitor starts afresh while a change is being written', async () => {

@@ -76,9 +76,12 @@ it('writes everything again after the browser has deleted what it kept', async (
 describe('a storage with room for one motion', () => {
   /** Motions that fit; a transaction with more of them ends as it does in a browser whose storage is full. */
   let room: number;
+  /** The part of which there is room for so many. */
+  let limited: string;
   const original = Object.getOwnPropertyDescriptor(IDBObjectStore.prototype, 'put')!;
   beforeEach(() => {
     room = 1;
+    limited = 'motions';
     const put = original.value as (
       this: IDBObjectStore,
       value: unknown,
@@ -86,7 +89,7 @@ describe('a storage with room for one motion', () => {
     ) => IDBRequest<IDBValidKey>;
     IDBObjectStore.prototype.put = function (this: IDBObjectStore, ...record: Parameters<typeof put>) {
       const request = put.apply(this, record);
-      if (this.name === 'motions')
+      if (this.name === limited)
         this.count().onsuccess = ({ target }) => {
           const full = (target as IDBRequest<number>).result > room;
           if (full) (this.transaction as unknown as Aborted)._abort('QuotaExceededError');
@@ -110,6 +113,17 @@ describe('a storage with room for one motion', () => {
     room = 2;
     await database.write(project);
     expect((await read('full')).takes.map(({ id }) => id).sort()).toEqual(['a', 'b']);
+  });
+
+  it('keeps the page of before where the leader of the new one does not fit', async () => {
+    limited = 'leaders';
+    const database = new ProjectDatabase('leader');
+    const store = withTakes('a');
+    const before = storedProject(store.getState()).page.leader;
+    await database.write(storedProject(store.getState()));
+    change.apply(store, change.leaderLoaded(leader(60)));
+    await expect(database.write(storedProject(store.getState()))).rejects.toSatisfy(isFull);
+    expect((await database.read())?.page).toMatchObject({ leader: before });
   });
 
   it('keeps a change of a take beside a new one that does not fit, and removes what has left before it adds', async () => {
@@ -157,6 +171,32 @@ it('converts the leaders that the first version of the page stored', async () =>
   const { leaders } = await read('first');
   expect(leaders).toMatchObject([{ name: 'old.bvh', options: { fps: 60 } }]);
   expect(new TextDecoder().decode(leaders[0]?.files[0]?.bytes)).toBe('HIERARCHY');
+});
+
+it('leaves the leader and the song that a take of another tab refers to', async () => {
+  const theirs = withTakes('b');
+  await new ProjectDatabase('shared').write(storedProject(theirs.getState()));
+  const database = new ProjectDatabase('shared');
+  await database.read();
+  const mine = withTakes();
+  change.apply(mine, change.leaderLoaded(theirs.getState().leader!));
+  change.apply(mine, change.songLoaded(theirs.getState().song!));
+  await database.write(storedProject(mine.getState()));
+  change.apply(mine, change.leaderLoaded(leader(60)));
+  change.apply(mine, change.songLoaded(song(3)));
+  await database.write(storedProject(mine.getState()));
+  const { takes } = await read('shared');
+  expect(takes).toMatchObject([{ id: 'b', song: expect.any(String) as string }]);
+});
+
+it('writes takes again that it has removed, as when starting over is undone', async () => {
+  const database = new ProjectDatabase('again');
+  const project = storedProject(withTakes('a').getState());
+  await database.write(project);
+  await database.removeOwn();
+  expect(await count('again', 'takes')).toBe(0);
+  await database.write(project);
+  expect((await read('again')).takes.map(({ id }) => id)).toEqual(['a']);
 });
 
 it('removes its own records, and leaves what it could not restore until everything is cleared', async () => {

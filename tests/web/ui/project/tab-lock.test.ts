@@ -79,6 +79,18 @@ it('one tab has the right, the next one gets it when the first ends, or takes it
   expect(log.at(-1)).toBe('one gains');
 });
 
+it('a tab that has taken the right no longer waits for it', async () => {
+  const { all, log } = tabs(['one', 'two'], new Set(['one', 'two']));
+  const [one, two] = [all[0]!, all[1]!];
+  await one.takeIfFree();
+  two.wait();
+  await two.takeOver();
+  two.giveBack();
+  await settle();
+  expect([one.held, two.held]).toEqual([false, false]);
+  expect(log.toSorted()).toEqual(['one loses', 'two gains']);
+});
+
 it('a tab that has nothing to write gives way at once', async () => {
   const { all, log } = tabs(['demo', 'work'], new Set(['work']));
   await all[0]!.takeIfFree();

@@ -6,13 +6,13 @@ import { createPose, samplePose } from '../../../../web/view/dancer/pose';
 import { createRig, type Rig } from '../../../../web/view/dancer/rig';
 import { person, randomMotion } from '../../support/skeletons';
 
-/** A dancer in the T-pose at (x, z). */
-function standing(x: number, z: number): Rig {
+/** A dancer in the T-pose at (x, z), the root at a height in metres. */
+function standing(x: number, z: number, height = 0.95): Rig {
   const rig = createRig();
   rig.fit(person());
   const pose = createPose();
   for (let joint = 0; joint < JOINT_COUNT; joint++) pose.rotations[joint * 4 + 3] = 1;
-  pose.root.set([x, 0.95, z]);
+  pose.root.set([x, height, z]);
   rig.apply(pose);
   return rig;
 }
@@ -81,6 +81,17 @@ describe('gestures', () => {
     expect(yaw).toBeLessThan(Math.PI / 4);
   });
 
+  it('lift the head to a taller partner, and lower it to a smaller one', () => {
+    for (const [height, up] of [
+      [1.4, 1],
+      [0.5, -1],
+    ] as const) {
+      const rig = standing(0, 0);
+      gesture(rig, standing(0, 1, height));
+      expect(up * axisOf(rig, J.head, FORWARD).y).toBeGreaterThan(0.05);
+    }
+  });
+
   it('do not turn the head to a partner behind', () => {
     const rig = standing(0, 0);
     gesture(rig, standing(0.1, -1));
@@ -88,11 +99,23 @@ describe('gestures', () => {
   });
 
   it('turn a hand towards a hand nearby and leave it alone otherwise', () => {
-    const outward = new Vector3(1, 0, 0);
-    const [near, far] = [standing(0, 0), standing(0, 0)];
+    const [near, far, touching] = [standing(0, 0), standing(0, 0), standing(0, 0)];
     gesture(near, standing(0, 0.2));
     gesture(far, standing(0, 2));
-    expect(axisOf(near, J.left_wrist, outward).z).toBeGreaterThan(0.3);
-    expect(axisOf(far, J.left_wrist, outward).x).toBeGreaterThan(0.9999);
+    const twisted = standing(0, 0);
+    for (const wrist of [J.left_wrist, J.right_wrist])
+      twisted.bones[wrist]!.quaternion.setFromAxisAngle(new Vector3(1, 0, 0), Math.PI / 2);
+    twisted.root.updateMatrixWorld(true);
+    gesture(twisted, standing(0, 0.2));
+    // Nearer than a direction can be told.
+    gesture(touching, standing(0, 0.01));
+    for (const [wrist, outwards] of [
+      [J.left_wrist, new Vector3(1, 0, 0)],
+      [J.right_wrist, new Vector3(-1, 0, 0)],
+    ] as const) {
+      for (const turned of [near, twisted]) expect(axisOf(turned, wrist, outwards).z).toBeGreaterThan(0.3);
+      for (const still of [far, touching])
+        expect(axisOf(still, wrist, outwards).dot(outwards)).toBeGreaterThan(0.9999);
+    }
   });
 });

@@ -5,9 +5,16 @@ import type { LoadedLeader } from '../../../../../web/ui/store/reaction';
 import * as change from '../../../support/actions';
 import { projectCleared } from '../../../../../web/ui/store/actions/project';
 import { takeDeleted } from '../../../../../web/ui/store/actions/takes';
+import { previewShown } from '../../../../../web/ui/store/actions/reaction';
 import { shiftSet } from '../../../../../web/ui/store/actions/timeline';
-import { redone, shiftJoined, undone, withoutUndo } from '../../../../../web/ui/store/history/history';
-import { currentInputs } from '../../../../../web/ui/store/take';
+import {
+  loadingJoined,
+  redone,
+  shiftJoined,
+  undone,
+  withoutUndo,
+} from '../../../../../web/ui/store/history/history';
+import { currentInputs, takeOnStage } from '../../../../../web/ui/store/take';
 import { leader, song, still } from '../../../support/made-state';
 import { small } from '../../../support/small-manifest';
 
@@ -139,6 +146,32 @@ describe('the history of undo', () => {
     react(store, '2');
     change.apply(store, undone());
     expect(store.getState().takes.map(({ id }) => id)).toEqual(['1']);
+  });
+
+  it('goes back to the take from before a song and a leader that came together, whatever came between', () => {
+    const store = page();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    react(store, '1');
+    expect(steps(store)).toBe(0);
+    change.apply(store, change.songLoaded(song(10)));
+    react(store, '2');
+    change.apply(store, change.leaderLoaded(leader(60)));
+    change.apply(store, loadingJoined(null));
+    change.apply(store, undone());
+    expect(store.getState().song).toBeNull();
+    expect(takeOnStage(store.getState())?.id).toBe('1');
+  });
+
+  it('takes the preview of a newer reaction off the stage with that reaction', () => {
+    const store = page();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    react(store, '1');
+    change.apply(store, change.songLoaded(song(10)));
+    react(store, '2');
+    change.apply(store, previewShown({ motion: still(30), locked: still(30) }));
+    change.apply(store, undone());
+    expect(takeOnStage(store.getState())?.id).toBe('1');
+    expect(store.getState().preview).toBeNull();
   });
 
   it('joins the shift of a song with its loading, and no other shift', () => {
