@@ -6,8 +6,10 @@ import {
   FRAME_RATES,
   type MotionFormat,
   motionExtension,
+  partOf,
   writeMotion,
 } from '../../../web/export/client';
+import { npyBytes } from '../../../web/export/npy';
 import { writeNpz } from '../../../web/export/npz';
 import { add, distance, readVec, scale } from '../../../web/motion/math/vec3';
 import { leaderBvh } from '../support/leader-bvh';
@@ -47,6 +49,24 @@ test('JSON has its metadata and every joint to a tenth of a millimetre', async (
   expect(reactor).toHaveLength(33);
   const flat = reactor!.flat(2);
   dance.dancers[0]!.motion.positions.forEach((value, i) => expect(flat[i]).toBeCloseTo(value, 4));
+});
+
+test('a part of a dance says where the song begins in it', () => {
+  const dance = { ...madeDance(40, 'reactor'), about: { ...madeDance(40, 'reactor').about, shift: 5 } };
+  const part = partOf(dance, 10, 30);
+  expect(part.about.shift).toBe(-5);
+  expect(part.dancers[0]!.motion.frames).toBe(20);
+  expect(part.dancers[0]!.motion.positions[0]).toBe(dance.dancers[0]!.motion.positions[10 * JOINT_COUNT * 3]);
+  expect(partOf({ ...dance, about: { ...dance.about, song: null } }, 10, 30).about.shift).toBe(5);
+  expect(partOf(dance, 0, 40)).toBe(dance);
+});
+
+test('shapes of arrays are tuples of Python, also those of one length and of none', () => {
+  const header = (shape: number[], data: Float64Array): string =>
+    new TextDecoder('latin1').decode(npyBytes({ shape, data }));
+  expect(header([2], Float64Array.of(1, 2))).toContain("'shape': (2,)");
+  expect(header([1, 2], Float64Array.of(1, 2))).toContain("'shape': (1, 2)");
+  expect(header([], Float64Array.of(1))).toContain("'shape': ()");
 });
 
 test('the same dance gives the same NPZ file on every day', () => {

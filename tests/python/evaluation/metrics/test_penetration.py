@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import training.evaluation.metrics.penetration as measured
 from tests.python.support.bodies import standing
 from training.data.made import made_dancer
 from training.evaluation.metrics.errors import bone_variation
@@ -46,6 +47,21 @@ def test_segment_distance_against_brute_force():
     brute = np.linalg.norm(p[:, :, None] - q[:, None], axis=-1).min(axis=(1, 2))
     assert segment_distance(p0, p1, q0, q1) == pytest.approx(brute, abs=0.02)
     assert (segment_distance(p0, p1, q0, q1) <= brute + 1e-9).all()
+
+
+def test_the_skull_begins_at_the_head():
+    leader = made_dancer(30, 1)
+    skull = next(i for i, (_, _, _, beyond) in enumerate(CAPSULES) if beyond > 0)
+    start, end = capsules(leader)
+    neck, head = (leader[:, JOINTS.index(name)] for name in ("neck", "head"))
+    assert start[:, skull] == pytest.approx(head, abs=1e-6)
+    assert end[:, skull] == pytest.approx(head + 0.6 * (head - neck), abs=1e-6)
+
+
+def test_shares_and_percentiles_of_the_depth(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(measured, "depth", lambda leader, reactor: np.arange(101) / 1000)
+    expected = {"ipr_capsules": 90 / 101, "depth_p50_mm": 50.0, "depth_p95_mm": 95.0}
+    assert penetration(standing(1), standing(1)) == pytest.approx(expected)
 
 
 def test_two_upper_arms_overlap_by_what_is_missing():

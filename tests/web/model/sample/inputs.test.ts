@@ -5,6 +5,7 @@ import {
   prepareInput,
   sameDecoded,
 } from '../../../../web/model/sample/inputs';
+import { stepCounts } from '../../../../web/motion/beats/step-timing';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { solve } from '../../../../web/motion/fit/ik';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
@@ -69,6 +70,16 @@ describe('the song in the model', () => {
   it('loses its beginning when it is shifted backwards, and silence follows', () => {
     expect(heard(request(8, { frames: 6, start: -2 }))).toEqual([3, 4, 5, 6, 0, 0, 0, 0]);
     expect(heard(request(8, { frames: 6, start: -20 }))).toEqual([0, 0, 0, 0, 0, 0, 0, 0]);
+  });
+
+  it('has its beats where it begins, and the role of the dancer to make', () => {
+    const what = request(60, { frames: 60, start: 7 });
+    const beats = [0.2, 0.7, 1.2];
+    const { steps, condition } = prepareInput({ ...what, music: { ...what.music!, beats } }, small);
+    const shifted = beats.map((beat) => 7 + beat * 30);
+    expect([...steps]).toEqual([...stepCounts(shifted, steps.length, 30)]);
+    expect(condition.role).toBe(0);
+    expect(prepareInput({ ...what, role: 'leader' }, small).condition.role).toBe(1);
   });
 
   it('moves by whole frames only', () => {
@@ -138,6 +149,7 @@ describe('two requests', () => {
     ['leader on a skeleton', { fitted: { ...one.fitted } }],
     ['song', { music: null }],
     ['features', { music: { ...one.music!, features: one.music!.features.slice() } }],
+    ['beats of the song', { music: { ...one.music!, beats: [0.5] } }],
     ['start of the song', { music: { ...one.music!, start: 4 } }],
     ['role', { role: 'leader' }],
     ['seed', { seed: 2 }],

@@ -146,6 +146,10 @@ it('a tempo says how sure and how steady it is', () => {
   expect(text({ slowest: 118, fastest: 123 })).toBe('120 BPM');
   expect(text({ slowest: 99.6, fastest: 135.2 })).toBe('100–135 BPM');
   expect(text({ sure: false })).toBe('about 120 BPM');
+  const changing = song(12, { rhythm: rhythm(times(20), { slowest: 99.6, fastest: 135.2 }) });
+  const twice = { song: changing.name, bytes: changing.file.size, beatsPerBar: 4, rate: 2, one: 0 } as const;
+  expect(tempoText(changing, [twice])).toBe('199–270 BPM');
+  expect(tempoText(changing, [{ ...twice, bytes: twice.bytes + 1 }]), 'another song').toBe('100–135 BPM');
 });
 
 it('a bar on and back is the start of a bar, and at the ends that of the dance', () => {

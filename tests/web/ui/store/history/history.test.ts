@@ -14,6 +14,7 @@ import {
   undone,
   withoutUndo,
 } from '../../../../../web/ui/store/history/history';
+import { ask, undoLast } from '../../../../../web/ui/store/history/asked';
 import { currentInputs, takeOnStage } from '../../../../../web/ui/store/take';
 import { leader, song, still } from '../../../support/made-state';
 import { small } from '../../../support/small-manifest';
@@ -160,6 +161,20 @@ describe('the history of undo', () => {
     change.apply(store, undone());
     expect(store.getState().song).toBeNull();
     expect(takeOnStage(store.getState())?.id).toBe('1');
+  });
+
+  it('ends the reading of a song only where nothing was done since it was asked for', () => {
+    const store = page();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    const cancelled: string[] = [];
+    const files = { cancel: (kind: string) => void cancelled.push(kind) };
+    ask(store, 'song');
+    undoLast(store, files);
+    expect(cancelled).toEqual(['song']);
+    change.apply(store, change.seedSet(9));
+    undoLast(store, files);
+    expect(cancelled).toHaveLength(1);
+    expect(store.getState().settings?.seed).toBe(7);
   });
 
   it('takes the preview of a newer reaction off the stage with that reaction', () => {
