@@ -123,6 +123,8 @@ describe('accessors', () => {
       const bytewise = { componentType: 5121, count: 3, sparse: sparse(2) };
       expect(values(bytes, bytewise)).toEqual([1, 70, 80]);
       expect(values(bytes, { ...bytewise, bufferView: undefined })).toEqual([0, 70, 80]);
+      const normalised = values(bytes, { ...bytewise, normalized: true });
+      normalised.forEach((value, i) => expect(value).toBeCloseTo([1, 70, 80][i]! / 255, 6));
     });
 
     test('with places that are not there are refused', () => {
@@ -151,6 +153,17 @@ describe('buffers within the file', () => {
     ['percent-encoding, a comma as it is', 'data:,%00,%FFA'],
   ])('in %s', (_, uri) => {
     expect(buffer(uri)).toEqual([0, 0x2c, 255, 0x41]);
+  });
+
+  test('one of two files with buffers is not taken for the other', () => {
+    const buffers = ['a.bin', 'b.bin'].map((uri) => ({ byteLength: 4, uri }));
+    const bytes = new TextEncoder().encode(JSON.stringify({ asset: { version: '2.0' }, buffers }));
+    const companion = { name: 'a.bin', bytes: new Uint8Array(4) };
+    expect(() => readContainer({ name: 'a.gltf', bytes }, [companion])).toThrow('in another file, b.bin');
+    const renamed = { name: 'other.bin', bytes: new Uint8Array(4) };
+    const [first] = buffers;
+    const one = new TextEncoder().encode(JSON.stringify({ asset: { version: '2.0' }, buffers: [first] }));
+    expect(readContainer({ name: 'a.gltf', bytes: one }, [renamed]).buffers).toEqual([renamed.bytes]);
   });
 
   test('in broken base64 are refused', () => {
