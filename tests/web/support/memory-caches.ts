@@ -12,7 +12,9 @@ export function memoryCaches(room = Infinity) {
           return Promise.resolve(void files.set(address, response));
         },
         keys: () => Promise.resolve([...files.keys()].map((url) => ({ url }))),
-        match: ({ url }: { url: string }) => Promise.resolve(files.get(url)?.clone()),
+        match: (asked: string | { url: string }) =>
+          Promise.resolve(files.get(typeof asked === 'string' ? asked : asked.url)?.clone()),
+        delete: (address: string) => Promise.resolve(files.delete(address)),
       });
     },
     match: (address: string, { cacheName }: { cacheName?: string } = {}) =>

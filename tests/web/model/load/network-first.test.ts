@@ -53,6 +53,17 @@ describe('the latest version of a file', () => {
     expect(await fetchLatest(URL, silent, text, store('old').answers, 20)).toBe('old');
   });
 
+  it('is waited for as long as it takes where there is no copy', async () => {
+    const late: typeof fetch = (_, options) =>
+      new Promise((resolve, reject) => {
+        options?.signal?.addEventListener('abort', () =>
+          reject(new DOMException('too late', 'TimeoutError')),
+        );
+        setTimeout(() => resolve(new Response('new')), 60);
+      });
+    expect(await fetchLatest(URL, late, text, store().answers, 10)).toBe('new');
+  });
+
   it("is the server's when that answers in time, however slowly the file comes", async () => {
     const slow: typeof fetch = (_, options) =>
       Promise.resolve(

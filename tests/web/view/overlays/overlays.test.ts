@@ -47,6 +47,15 @@ describe('pairs of near hands', () => {
     expect(found.map(({ opacity }) => opacity)).toEqual([1, 1]);
   });
 
+  it('are not both at one hand that is near to two', () => {
+    const both = joints({ left_wrist: [0, 1, 0], right_wrist: [0.1, 1, 0] });
+    const reactor = joints({ left_wrist: [0, 1, 0], right_wrist: [0.5, 1, 0] });
+    expect(nearHandPairs(both, reactor).map((pair) => [pair.leader, pair.reactor])).toEqual([
+      [J.left_wrist, J.left_wrist],
+      [J.right_wrist, J.right_wrist],
+    ]);
+  });
+
   it('fade as they part and are gone beyond a distance', () => {
     const at = (gap: number) =>
       nearHandPairs(leader, joints({ left_wrist: [gap, 1, 0], right_wrist: [9, 1, 0] }));

@@ -124,6 +124,19 @@ describe('scales', () => {
   });
 });
 
+test('joints that come before those they hang on are read all the same', () => {
+  const objects: FbxObject[] = [
+    { name: 'Head', parent: 'Spine', translation: [0, 2, 0] },
+    { name: 'Spine', parent: 'Hips', translation: [0, 5, 1] },
+    { name: 'Hips', translation: [1, 2, 3] },
+  ];
+  expect([...placesIn(writeFbxObjects(objects))]).toEqual([
+    ['Hips', [1, 2, 3]],
+    ['Spine', [1, 7, 4]],
+    ['Head', [1, 9, 4]],
+  ]);
+});
+
 test('what an object looks at is not its child', () => {
   const objects: FbxObject[] = [
     { name: 'Camera', type: 'Camera', translation: [100, 0, 0] },
@@ -143,6 +156,11 @@ describe('layers of a clip', () => {
     const source = readFbx(writeFbxObjects(objects, { layers }), 0);
     return [source.localPoses([2]).translations[1]!, source.warnings];
   };
+
+  test('are in the unit of the file', () => {
+    const { unit } = readFbx(writeFbxObjects(objects, { layers: [['Base', 'Hips']] }), 0);
+    expect(unit).toEqual({ name: 'centimetres', metres: 0.01 });
+  });
 
   test('one alone has no warning, and an empty one neither', () => {
     expect(read([['Base', 'Hips']])).toEqual([3, []]);
