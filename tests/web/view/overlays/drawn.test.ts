@@ -43,7 +43,7 @@ describe('a ribbon', () => {
       [0, 0, 2],
       [0, 0, 2],
     ];
-    const ways = [first, first, second, second, third, third].flatMap((way) => way!);
+    const ways = [first, first, second, second, third, third].flatMap((way) => way);
     expect(rounded(geometry.getAttribute('along').array)).toEqual(ways);
     expect([...geometry.index!.array]).toEqual([0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5]);
   });
