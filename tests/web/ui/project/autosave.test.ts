@@ -5,7 +5,6 @@ import type { FileReaders } from '../../../../web/ui/store/services';
 import type { TabLockApis } from '../../../../web/ui/project/tab-lock';
 import type { FoundProject } from '../../../../web/ui/project/records';
 import { storedProject, type StoredProject } from '../../../../web/ui/project/stored-project';
-import { Autosave } from '../../../../web/ui/project/autosave';
 import { Project } from '../../../../web/ui/project/project';
 import { notes, persistenceText } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
@@ -195,37 +194,6 @@ describe('autosave', () => {
     made('bb');
     await pass(60_000);
     expect(writes).toEqual([]);
-  });
-
-  it('goes on when the other tab ends, also where what that has written cannot be read', async () => {
-    made('a');
-    await pass(0);
-    project.dispose();
-    let free = (): void => undefined;
-    const request = (...[, options, held]: Parameters<LockManager['request']>) =>
-      options.ifAvailable
-        ? held(null)
-        : new Promise<void>((resolve) => (free = resolve)).then(() => held({} as Lock));
-    const storage = {
-      read: () => Promise.resolve(null),
-      write: ({ takes }: StoredProject) => Promise.resolve(void writes.push(takes.map(({ name }) => name))),
-      removeOwn: () => Promise.resolve(),
-      clear: () => Promise.resolve(),
-    };
-    const tabs = { name: 'tabs', locks: { request } as unknown as TabLockApis['locks'], channel: undefined };
-    const callbacks = { merge: never, framing: () => null, takeStored: () => undefined };
-    const autosave = new Autosave(store, storage, tabs, callbacks);
-    writes = [];
-    await autosave.read();
-    autosave.start();
-    await pass(1000);
-    expect(store.getState().autosave).toBe('elsewhere');
-    expect(writes).toEqual([]);
-    free();
-    await pass(0);
-    expect(writes).toEqual([[null]]);
-    expect(store.getState().autosave).toBe('stored');
-    autosave.dispose();
   });
 
   it('empties the storage of everything when the visitor starts afresh while a change is being written', async () => {
