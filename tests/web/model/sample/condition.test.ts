@@ -34,6 +34,13 @@ describe('chunks', () => {
     ]);
     expect(chunks(5, 10, 3)).toEqual([{ start: 0, end: 5, inputStart: 0, inputEnd: 5 }]);
   });
+
+  it('of a part reach as far beyond its ends', () => {
+    expect(chunks(100, 10, 3, { start: 20, end: 34 })).toEqual([
+      { start: 20, end: 30, inputStart: 17, inputEnd: 33 },
+      { start: 30, end: 34, inputStart: 27, inputEnd: 37 },
+    ]);
+  });
 });
 
 describe('a clip in chunks', () => {
