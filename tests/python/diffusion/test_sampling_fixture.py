@@ -1,4 +1,4 @@
-"""The block and sampler arithmetic that both languages share.
+"""The sampler arithmetic that both languages share.
 
 `python -m tests.python.diffusion.test_sampling_fixture` rewrites tests/fixtures/sampling.json, which the
 TypeScript tests read.
@@ -13,14 +13,10 @@ import torch
 
 from export.tiny import tiny_model
 from training.config import DiffusionConfig
-from training.diffusion.blocks import partition
 from training.diffusion.sampler import sample
 from training.diffusion.schedule import alphas_cumprod, ddim_steps
 
 GOLDEN = Path(__file__).parents[2] / "fixtures" / "sampling.json"
-BLOCK = 60
-# Full blocks from 1 to 10, and tails on both sides of every boundary.
-LENGTHS = sorted({n for b in range(1, 11) for n in (b * BLOCK + d for d in (-59, -30, -1, 0))})
 # Numbers of steps and last times; the steps of 7 and 25 to 0.1 do not divide the timesteps evenly.
 SCHEDULES = [(count, last) for last in (0.1, 0.25) for count in (1, 2, 3, 4, 7, 10, 25, 50)]
 SCHEDULES += [(2, 0.0125)]  # half a timestep, which languages round differently
@@ -29,7 +25,7 @@ ALPHAS = alphas_cumprod(DiffusionConfig())
 
 def sampled(steps: int = 3, latents: int = 3, channels: int = 6) -> dict:
     """A sampling in which x0 = x / 2 + time: its noise, which is cos 0, cos 1, ..., and the clean latents."""
-    sampling = replace(tiny_model().sampling, block=BLOCK, layers=2, channels=channels)
+    sampling = replace(tiny_model().sampling, block=60, layers=2, channels=channels)
     initial = torch.arange(latents * 2 * channels).cos().view(latents, 2, channels)
     result = sample(
         sampling,
@@ -50,10 +46,6 @@ def sampled(steps: int = 3, latents: int = 3, channels: int = 6) -> dict:
 
 def golden() -> dict:
     return {
-        "block": BLOCK,
-        "partitions": [
-            {"latents": n, "blocks": [[b.start, b.length] for b in partition(n, BLOCK)]} for n in LENGTHS
-        ],
         "schedules": [
             {
                 "steps": count,
@@ -68,7 +60,6 @@ def golden() -> dict:
 
 def test_the_golden_file_is_up_to_date() -> None:
     stored, fresh = json.loads(GOLDEN.read_text()), golden()
-    assert stored["partitions"] == fresh["partitions"]
     for old, new in zip(stored["schedules"], fresh["schedules"], strict=True):
         assert (old["steps"], old["last_time"]) == (new["steps"], new["last_time"])
         np.testing.assert_allclose(old["plan"], new["plan"], atol=1e-12)

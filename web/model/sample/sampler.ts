@@ -1,6 +1,5 @@
 import { yieldToEvents } from '../../common/yield-to-events';
 import type { Manifest } from '../manifest';
-import { type Block, gather, partition, scatter, validity } from './blocks';
 import type { HeldLatents, StepRunner } from './graphs';
 import type { ScheduleStep } from './schedule';
 
@@ -23,39 +22,53 @@ export interface Sampling {
 
 /**
  * Samples the latents of a whole clip by DDIM, block by block (blockwise local context, paper 3.4): no block needs
- * another, so some of them go through all steps before the others do.
+ * another, so some of them go through all steps before the others do. The last block may reach beyond the clip.
  * @returns latents x layers x channels, normalised
  * @throws the signal's reason, between two graph runs
  */
 export async function sample(sampling: Sampling): Promise<Float32Array> {
   const { latent, schedule, noise, blocksPerRun } = sampling;
   const width = latent.layers.length * latent.channels;
-  const blocks = partition(noise.length / width, latent.block);
+  const total = Math.ceil(noise.length / (latent.block * width));
   const result = new Float32Array(noise.length);
-  for (let first = 0; first < blocks.length; first += blocksPerRun) {
-    const some = blocks.slice(first, first + blocksPerRun);
-    const sampled = await sampleBlocks(sampling, some, (step) => {
-      const done = first * schedule.length + step * some.length;
-      sampling.onProgress?.(done, schedule.length * blocks.length);
-    });
-    scatter(result, width, sampled, some, latent.block);
+  for (let first = 0; first < total; first += blocksPerRun) {
+    const blocks = Math.min(blocksPerRun, total - first);
+    const sampled = await sampleBlocks(sampling, first, blocks, (step) =>
+      sampling.onProgress?.(first * schedule.length + step * blocks, schedule.length * total),
+    );
+    const at = first * latent.block * width;
+    result.set(sampled.subarray(0, result.length - at), at);
   }
   return result;
 }
 
-/** @returns blocks x block x layers x channels */
+/**
+ * @param first block
+ * @param blocks how many
+ * @returns blocks x block x layers x channels
+ */
 async function sampleBlocks(
   { latent, schedule, memory, keep, noise, runStep, signal }: Sampling,
-  blocks: readonly Block[],
+  first: number,
+  blocks: number,
   onStep: (done: number) => void,
 ): Promise<Float32Array> {
+  const begin = first * latent.block;
+  const size = blocks * latent.block;
+  /** The rows of these blocks, zeros beyond the end of the clip. */
+  const padded = (rows: Float32Array, width: number): Float32Array => {
+    const out = new Float32Array(size * width);
+    out.set(rows.subarray(begin * width, (begin + size) * width));
+    return out;
+  };
+  const latents = memory.length / latent.memory_width;
   const conditions = {
-    blocks: blocks.length,
-    memory: gather(memory, latent.memory_width, blocks, latent.block),
-    valid: validity(blocks, latent.block),
+    blocks,
+    memory: padded(memory, latent.memory_width),
+    valid: new Float32Array(size).fill(1, 0, latents - begin),
     keep,
   };
-  const start = gather(noise, latent.layers.length * latent.channels, blocks, latent.block);
+  const start = padded(noise, latent.layers.length * latent.channels);
   let held: HeldLatents | null = null;
   try {
     for (const [k, step] of schedule.entries()) {
