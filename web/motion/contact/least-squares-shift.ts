@@ -1,4 +1,4 @@
-import { addEvenness, solvePentadiagonal } from '../math/pentadiagonal';
+import { solveEven } from '../math/pentadiagonal';
 import { add, writeVec } from '../math/vec3';
 import type { SolvedMotion } from '../skeleton/clip';
 import type { LegJoints } from '../skeleton/limbs';
@@ -55,9 +55,8 @@ export function leastSquaresShift(
 ): Float64Array {
   const frames = zeroWeights.length;
   const diagonal = Float64Array.from(zeroWeights);
-  /** Coefficients between frame t and t + 1, t and t + 2. */
+  /** Coefficients between frame t and t + 1. */
   const next = new Float64Array(frames);
-  const second = new Float64Array(frames);
   const shift = new Float64Array(frames);
   for (const { positions, weights } of tracks) {
     weights.forEach((weight, t) => {
@@ -70,8 +69,7 @@ export function leastSquaresShift(
       shift[t + 1]! -= weight * slide;
     });
   }
-  addEvenness(diagonal, next, second, smoothness);
-  return solvePentadiagonal(diagonal, next, second, shift);
+  return solveEven(diagonal, shift, smoothness, next);
 }
 
 /** How a foot is held. */

@@ -37,15 +37,16 @@ export function solvePentadiagonal(
 }
 
 /**
- * Adds weight x (value before - 2 x value + value after)^2 of every row to the normal equations of a column, which makes
- * its solution even.
+ * Solves the normal equations of a column with weight x (value before - 2 x value + value after)^2 of every row added to
+ * them, which makes the solution even. In place, with arguments and result as in `solvePentadiagonal`.
  */
-export function addEvenness(
+export function solveEven(
   diagonal: Float64Array,
-  next: Float64Array,
-  second: Float64Array,
+  right: Float64Array,
   weight: number,
-): void {
+  next = new Float64Array(diagonal.length),
+): Float64Array {
+  const second = new Float64Array(diagonal.length);
   for (let t = 1; t < diagonal.length - 1; t++) {
     diagonal[t - 1]! += weight;
     diagonal[t]! += 4 * weight;
@@ -54,4 +55,5 @@ export function addEvenness(
     next[t]! -= 2 * weight;
     second[t - 1]! += weight;
   }
+  return solvePentadiagonal(diagonal, next, second, right);
 }

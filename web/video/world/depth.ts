@@ -1,4 +1,4 @@
-import { addEvenness, solvePentadiagonal } from '../../motion/math/pentadiagonal';
+import { solveEven } from '../../motion/math/pentadiagonal';
 import { median } from '../../motion/math/statistics';
 import type { Series } from './series';
 import type { Stances } from './stance';
@@ -35,10 +35,7 @@ export function depthOf(size: Float64Array): Float64Array {
   let depth = size;
   for (let pass = 0; pass < PASSES; pass++) {
     const right = weights.map((one, t) => one * size[t]!);
-    const [next, second] = [new Float64Array(size.length), new Float64Array(size.length)];
-    const diagonal = weights.slice();
-    addEvenness(diagonal, next, second, 1 / BEND_DEVIATION ** 2);
-    depth = solvePentadiagonal(diagonal, next, second, right);
+    depth = solveEven(weights.slice(), right, 1 / BEND_DEVIATION ** 2);
     depth.forEach((metres, t) => {
       const error = (size[t]! - metres) / (OUTLIER * deviation);
       weights[t] = weight / (1 + error * error);

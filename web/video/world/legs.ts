@@ -1,5 +1,5 @@
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
-import { addEvenness, solvePentadiagonal } from '../../motion/math/pentadiagonal';
+import { solveEven } from '../../motion/math/pentadiagonal';
 import { median } from '../../motion/math/statistics';
 import { distance, readVec, scale, type Vec3, writeVec } from '../../motion/math/vec3';
 import { LANDMARK_COUNT } from '../pose/landmarks';
@@ -121,15 +121,13 @@ interface Held {
 /** The shift, one number a frame, that brings coordinates to their targets and changes evenly in between. */
 function shiftTo(held: readonly Held[], frames: number): Float64Array {
   const diagonal = new Float64Array(frames).fill(REST_WEIGHT);
-  const [next, second] = [new Float64Array(frames), new Float64Array(frames)];
   const shift = new Float64Array(frames);
   for (const { interval, seen, target } of held)
     for (let t = interval.first; t <= interval.last; t++) {
       diagonal[t]! += STANDING_WEIGHT;
       shift[t]! += STANDING_WEIGHT * (target - seen(t));
     }
-  addEvenness(diagonal, next, second, EVEN_WEIGHT);
-  return solvePentadiagonal(diagonal, next, second, shift);
+  return solveEven(diagonal, shift, EVEN_WEIGHT);
 }
 
 /** The point on a ray at which both bones of a leg are nearest to their lengths. */

@@ -1,7 +1,7 @@
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { contactWeights, leastSquaresShift } from '../../motion/contact/least-squares-shift';
-import { addEvenness, solvePentadiagonal } from '../../motion/math/pentadiagonal';
+import { solveEven } from '../../motion/math/pentadiagonal';
 import { percentile } from '../../motion/math/statistics';
 import { lowered, shiftedLevel, type SolvedMotion } from '../../motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
@@ -51,7 +51,6 @@ function onGround(motion: SolvedMotion, stances: readonly Stances[]): SolvedMoti
   const typical = percentile(lowest, 30);
   const diagonal = new Float64Array(frames).fill(HEIGHT_WEIGHT);
   const right = new Float64Array(frames).fill(HEIGHT_WEIGHT * typical);
-  const [next, second] = [new Float64Array(frames), new Float64Array(frames)];
   TOES.forEach((joint, i) => {
     for (const { first, last } of contactsOf(stances)(joint))
       for (let t = first; t <= last; t++) {
@@ -59,6 +58,5 @@ function onGround(motion: SolvedMotion, stances: readonly Stances[]): SolvedMoti
         right[t]! += heights[i]![t]!;
       }
   });
-  addEvenness(diagonal, next, second, EVEN_WEIGHT);
-  return lowered(motion, solvePentadiagonal(diagonal, next, second, right));
+  return lowered(motion, solveEven(diagonal, right, EVEN_WEIGHT));
 }
