@@ -5,7 +5,7 @@ import type { SourceJoint } from './source';
 import { mapByStructure } from './structure';
 import { BVH_NAMES, isOwnSkeleton, OWN_CONVENTION } from '../bvh/names';
 import { AppError } from '../../common/error';
-import { type JointName, SMPL22 } from '../skeleton/skeleton';
+import { type JointName, otherSide, SMPL22 } from '../skeleton/skeleton';
 import { distance, type Vec3 } from '../math/vec3';
 
 /** How joints were found: by their names, by the shape of the body, or set by hand. */
@@ -231,7 +231,5 @@ function spineOf(nodes: readonly SourceJoint[], found: ReadonlyMap<JointName, nu
 
 /** The map with the two sides exchanged. */
 export function withSidesExchanged(map: JointMap): JointMap {
-  const other = (joint: JointName): JointName =>
-    joint.replace(/^(left|right)/, (side) => (side === 'left' ? 'right' : 'left')) as JointName;
-  return { ...map, nodes: new Map([...map.nodes].map(([joint, node]) => [other(joint), node])) };
+  return { ...map, nodes: new Map([...map.nodes].map(([joint, node]) => [otherSide(joint), node])) };
 }

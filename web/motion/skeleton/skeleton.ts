@@ -38,15 +38,12 @@ export const PARENTS: readonly number[] = [
   -1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19,
 ];
 
-/** Joint on the other side of the body; joints of the middle map to themselves. */
-export const MIRROR: readonly number[] = SMPL22.map((name) => {
-  const other = name.startsWith('left_')
-    ? name.replace('left_', 'right_')
-    : name.startsWith('right_')
-      ? name.replace('right_', 'left_')
-      : name;
-  return J[other as JointName];
-});
+/** The joint on the other side of the body; one in the middle is its own. */
+export const otherSide = (joint: JointName): JointName =>
+  joint.replace(/^(left|right)/, (side) => (side === 'left' ? 'right' : 'left')) as JointName;
+
+/** The same by index. */
+export const MIRROR: readonly number[] = SMPL22.map((joint) => J[otherSide(joint)]);
 
 /** Ankles and toes, the joints that stand on the floor. */
 export const FEET: readonly number[] = [J.left_ankle, J.right_ankle, J.left_foot, J.right_foot];

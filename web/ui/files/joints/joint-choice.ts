@@ -1,12 +1,9 @@
 import type { SourceJoint } from '../../../motion/retarget/source';
 import type { JointChoice } from '../../../motion/retarget/options';
-import { type JointName, SMPL22 } from '../../../motion/skeleton/skeleton';
+import { type JointName, otherSide, SMPL22 } from '../../../motion/skeleton/skeleton';
 
 /** For each of the 22 the index of the file's joint that stands for it; null where it is to be estimated. */
 export type ChosenJoints = Readonly<Record<JointName, number | null>>;
-
-const otherSide = (name: JointName): JointName =>
-  name.replace(/^(left|right)/, (side) => (side === 'left' ? 'right' : 'left')) as JointName;
 
 /** The same with the joints of both sides exchanged. */
 export function sidesExchanged(chosen: ChosenJoints): ChosenJoints {
