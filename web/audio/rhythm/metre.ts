@@ -43,17 +43,21 @@ export function metreOf(beats: readonly number[], accents: Accents): Metre {
 
 /** The values less their mean, in standard deviations; zeros where all are the same. */
 function standardized(values: readonly number[]): number[] {
-  const mean = values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
-  const variance = values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / Math.max(1, values.length);
-  return values.map((value) => (variance > 1e-12 ? (value - mean) / Math.sqrt(variance) : 0));
+  const middle = mean(values);
+  const variance = mean(values.map((value) => (value - middle) ** 2));
+  return values.map((value) => (variance > 1e-12 ? (value - middle) / Math.sqrt(variance) : 0));
+}
+
+/** The mean; 0 of none. */
+function mean(values: readonly number[]): number {
+  return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
 }
 
 /** Means of the values of each phase, `count` of them. */
 export function phaseMeans(values: readonly number[], count: number): number[] {
-  return Array.from({ length: count }, (_, phase) => {
-    const own = values.filter((_, index) => index % count === phase);
-    return own.reduce((sum, value) => sum + value, 0) / Math.max(1, own.length);
-  });
+  return Array.from({ length: count }, (_, phase) =>
+    mean(values.filter((_, index) => index % count === phase)),
+  );
 }
 
 function strongestPhase(values: readonly number[], count: number): number {
@@ -67,12 +71,12 @@ function meanExplained(values: readonly number[], period: number): number {
   const shares: number[] = [];
   for (let start = 0; start + size <= values.length; start += WINDOW / 2) {
     const part = values.slice(start, start + size);
-    const mean = part.reduce((sum, value) => sum + value, 0) / size;
-    const whole = part.reduce((sum, value) => sum + (value - mean) ** 2, 0);
+    const middle = mean(part);
+    const whole = part.reduce((sum, value) => sum + (value - middle) ** 2, 0);
     const means = phaseMeans(part, period);
-    const between = part.reduce((sum, _, index) => sum + (means[index % period]! - mean) ** 2, 0);
+    const between = part.reduce((sum, _, index) => sum + (means[index % period]! - middle) ** 2, 0);
     const chance = (period - 1) / Math.max(1, size - 1);
     shares.push(whole > 1e-9 ? (between / whole - chance) / (1 - chance) : 0);
   }
-  return shares.reduce((sum, value) => sum + value, 0) / Math.max(1, shares.length);
+  return mean(shares);
 }

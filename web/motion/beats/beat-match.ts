@@ -1,3 +1,5 @@
+import { mean } from '../math/statistics';
+
 /** Largest shift that is tried, frames to either side. */
 const MAX_SHIFT_FRAMES = 60;
 /** Fewest beats of motion and music that are compared. */
@@ -84,8 +86,4 @@ function nearestDistance(ascending: readonly number[], value: number): number {
     Math.abs((ascending[low] ?? Infinity) - value),
     Math.abs((ascending[low - 1] ?? -Infinity) - value),
   );
-}
-
-function mean(values: readonly number[]): number {
-  return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
 }

@@ -49,6 +49,13 @@ export function median(values: ArrayLike<number>): number {
   return percentile(values, 50);
 }
 
+/** The mean; 0 of none. */
+export function mean(values: ArrayLike<number>): number {
+  let sum = 0;
+  for (let i = 0; i < values.length; i++) sum += values[i]!;
+  return sum / Math.max(1, values.length);
+}
+
 /** Standard deviations at which the filter is cut off, as scipy does. */
 const TRUNCATE = 4;
 

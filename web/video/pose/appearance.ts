@@ -1,3 +1,4 @@
+import { mean } from '../../motion/math/statistics';
 import { L } from './landmark-names';
 import { LANDMARK_SIDE, LANDMARK_WIDTH } from './landmarks';
 
@@ -104,8 +105,7 @@ function meanColour(input: Float32Array, places: readonly Place[]): number[] {
     ])
     .map(([x, y]): Place => [Math.round(x), Math.round(y)])
     .filter(([x, y]) => x >= 0 && y >= 0 && x < LANDMARK_SIDE && y < LANDMARK_SIDE);
-  return [0, 1, 2].map((channel) => {
-    const values = pixels.map(([x, y]) => input[(channel * LANDMARK_SIDE + y) * LANDMARK_SIDE + x]!);
-    return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
-  });
+  return [0, 1, 2].map((channel) =>
+    mean(pixels.map(([x, y]) => input[(channel * LANDMARK_SIDE + y) * LANDMARK_SIDE + x]!)),
+  );
 }

@@ -8,7 +8,7 @@ import {
   type Quat,
   rotate,
 } from '../../motion/math/quat';
-import { median } from '../../motion/math/statistics';
+import { mean, median } from '../../motion/math/statistics';
 import { direction, length, type Vec3, X_AXIS } from '../../motion/math/vec3';
 import { type Grey, halved, withoutLocalMean } from './grey';
 import type { Point, Region } from './region';
@@ -115,7 +115,7 @@ export class CameraTurn {
     }
     let between = multiply(conjugate(key.turn), this.#turn);
     const laid = differences(picture, key, OWN_SIZE, between, this.focal);
-    if (meanOf(strengthsOf(laid)) < BLANK) {
+    if (mean(strengthsOf(laid)) < BLANK) {
       this.#keys[this.#keys.indexOf(key)] = { ...picture, turn: this.#turn };
       return this.#turn;
     }
@@ -202,10 +202,10 @@ function isAligned({ errors, rows }: Differences): boolean {
   // A turn up or down moves level edges, one to the side upright ones.
   const [level, upright] = [0, 1].map((turn) => {
     const strengths = errors.map((_, i) => Math.abs(rows[3 * i + turn]!));
-    const mean = meanOf(strengths);
+    const typical = mean(strengths);
     let [aligned, all] = [0, 0];
     strengths.forEach((strength, i) => {
-      if (strength <= mean) return;
+      if (strength <= typical) return;
       all += strength ** 2;
       const tolerance = ALIGNED * Math.hypot(rows[3 * i]!, rows[3 * i + 1]!) + NOISE;
       if (Math.abs(errors[i]!) < tolerance) aligned += strength ** 2;
@@ -221,8 +221,8 @@ function turnThatFits(differences: Differences): Vec3 {
   const { errors, rows } = differences;
   // Where edges are: elsewhere a picture lies well anywhere.
   const strengths = strengthsOf(differences);
-  const mean = meanOf(strengths);
-  const sizes = errors.filter((_, i) => strengths[i]! > mean).map(Math.abs);
+  const typical = mean(strengths);
+  const sizes = errors.filter((_, i) => strengths[i]! > typical).map(Math.abs);
   const scale = (sizes.length > 0 ? TOLERANCE * median(sizes) : 0) + NOISE;
   let [xx, xy, xz, yy, yz, zz] = [RIDGE, 0, 0, RIDGE, 0, RIDGE];
   let [bx, by, bz] = [0, 0, 0];
@@ -253,10 +253,6 @@ function turnThatFits(differences: Differences): Vec3 {
 /** Changes of grey value a radian. */
 function strengthsOf({ errors, rows }: Differences): Float64Array {
   return errors.map((_, i) => Math.hypot(rows[3 * i]!, rows[3 * i + 1]!));
-}
-
-function meanOf(values: Float64Array): number {
-  return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
 }
 
 /** Whether a pixel is in a circle. */

@@ -1,3 +1,4 @@
+import { mean } from '../../math/statistics';
 import { distance, readVec } from '../../math/vec3';
 import type { Positions } from '../positions';
 
@@ -18,8 +19,8 @@ export function changesLengths({ joints, places }: Positions): boolean {
       const length = distance(readVec(places, at + joint), readVec(places, at + parent));
       if (Number.isFinite(length)) lengths.push(length);
     }
-    const mean = lengths.reduce((sum, one) => sum + one, 0) / lengths.length;
-    return mean > 0 ? [(Math.max(...lengths) - Math.min(...lengths)) / mean] : [];
+    const typical = mean(lengths);
+    return typical > 0 ? [(Math.max(...lengths) - Math.min(...lengths)) / typical] : [];
   });
   const middle = changes.sort((a, b) => a - b)[Math.floor(changes.length / 2)];
   return middle !== undefined && middle > MAX_CHANGE;
