@@ -1,5 +1,5 @@
 import { alongBone, blendWeights, boneSegment, gradual, hinge, jointOf } from './bone-segment';
-import { add, scale, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
+import { add, scale, sub, type Vec3, smoothstep, Z_AXIS } from '../../motion/math/vec3';
 import { unit } from './field';
 import {
   halfBuildScale,
@@ -10,8 +10,6 @@ import {
   type Side,
   type Weights,
 } from './part';
-
-const FORWARD: Vec3 = [0, 0, 1];
 
 /** Centre of the shoulder: lower and further in than the motion capture joint, which lies on top of it. */
 export function shoulderCentre(at: BodyPlan['at'], side: Side): Vec3 {
@@ -24,7 +22,7 @@ export function upperArm({ at, build }: BodyPlan, side: Side): Part {
     joints: [jointOf(side, 'collar'), shoulder, elbow],
     from: shoulderCentre(at, side),
     to: at[elbow]!,
-    across: FORWARD,
+    across: Z_AXIS,
     stations: [
       { at: 0, wide: 0.047 },
       { at: 0.2, wide: 0.0485 },
@@ -43,7 +41,7 @@ export function forearm({ at, build }: BodyPlan, side: Side): Part {
     joints: [jointOf(side, 'shoulder'), elbow, wrist],
     from: at[elbow]!,
     to: at[wrist]!,
-    across: FORWARD,
+    across: Z_AXIS,
     stations: [
       { at: 0, wide: 0.034 },
       { at: 0.24, wide: 0.0405 },
@@ -66,8 +64,8 @@ export function hand({ at, build }: BodyPlan, side: Side): Part[] {
   const { span, down } = alongBone(at[elbow]!, origin);
   const outward: Vec3 = unit([-along[1] * side, along[0] * side, 0]);
   const [cos, sin] = [Math.cos(PALM_TURN), Math.sin(PALM_TURN)];
-  const thumbSide = add(scale(FORWARD, cos), scale(outward, -sin));
-  const back = add(scale(outward, cos), scale(FORWARD, sin));
+  const thumbSide = add(scale(Z_AXIS, cos), scale(outward, -sin));
+  const back = add(scale(outward, cos), scale(Z_AXIS, sin));
   const here = (u: number, thumbwards: number, up: number): Vec3 =>
     add(add(origin, scale(along, u)), add(scale(thumbSide, thumbwards), scale(back, up)));
   const weights = (x: number, y: number, z: number): Weights =>

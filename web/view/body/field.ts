@@ -54,22 +54,20 @@ export function ellipsoid(centre: Vec3, radii: Vec3): Field {
 /** Intervals of the table of a profile. */
 const SAMPLES = 64;
 
-/** Monotone cubic interpolation of a value through stations (Fritsch and Butland 1984), sampled to a table. */
+/** Monotone cubic interpolation of a value through two stations or more (Fritsch and Butland 1984), sampled to a table. */
 function profile(stations: readonly Station[], value: (station: Station) => number): Float32Array {
   const table = new Float32Array(SAMPLES + 1);
   const n = stations.length;
   const xs = stations.map((station) => station.at);
   const ys = stations.map(value);
-  const slopes = ys.map((y, i) => {
-    if (i === 0 || i === n - 1) return 0;
-    const left = (y - ys[i - 1]!) / (xs[i]! - xs[i - 1]!);
-    const right = (ys[i + 1]! - y) / (xs[i + 1]! - xs[i]!);
+  const slopeFrom = (i: number): number => (ys[i + 1]! - ys[i]!) / (xs[i + 1]! - xs[i]!);
+  const slopes = ys.map((_, i) => {
+    if (i === 0) return slopeFrom(0);
+    const left = slopeFrom(i - 1);
+    if (i === n - 1) return left;
+    const right = slopeFrom(i);
     return left * right <= 0 ? 0 : (2 * left * right) / (left + right);
   });
-  if (n > 1) {
-    slopes[0] = (ys[1]! - ys[0]!) / (xs[1]! - xs[0]!);
-    slopes[n - 1] = (ys[n - 1]! - ys[n - 2]!) / (xs[n - 1]! - xs[n - 2]!);
-  }
   let i = 0;
   for (let s = 0; s <= SAMPLES; s++) {
     const at = s / SAMPLES;

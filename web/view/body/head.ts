@@ -1,10 +1,8 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { boneSegment, gradual } from './bone-segment';
-import { add, scale, type Vec3 } from '../../motion/math/vec3';
+import { add, scale, type Vec3, X_AXIS } from '../../motion/math/vec3';
 import { ellipsoid, limb, smoothCut, smoothUnion } from './field';
-import { ball, halfBuildScale, movedBy, type BodyPlan, type Part } from './part';
-
-const SIDEWAYS: Vec3 = [1, 0, 0];
+import { ball, halfBuildScale, type BodyPlan, type Part } from './part';
 
 /** Clearly narrower than the skull, and leaning forward a little. */
 export function neck({ at, build }: BodyPlan): Part {
@@ -15,7 +13,7 @@ export function neck({ at, build }: BodyPlan): Part {
     joints: [J.spine3, J.neck, J.head],
     from,
     to,
-    across: SIDEWAYS,
+    across: X_AXIS,
     stations: [
       { at: 0, wide: 0.056 },
       { at: 0.5, wide: 0.0475 },
@@ -38,13 +36,13 @@ export function head({ at, build }: BodyPlan): Part {
   const nose = limb({
     from: here(0, 0.088, 0.082),
     to: here(0, 0.058, 0.083),
-    across: SIDEWAYS,
+    across: X_AXIS,
     stations: [
       { at: 0, wide: 0.011 },
       { at: 1, wide: 0.0155 },
     ],
   });
-  const whole = ball(here(0, 0.08, 0.015), radii(0.085, 0.125, 0.12), 0.022, movedBy(J.head));
+  const whole = ball(here(0, 0.08, 0.015), radii(0.085, 0.125, 0.12), 0.022, () => [[J.head, 1]]);
   return {
     ...whole,
     field: (x, y, z) => {

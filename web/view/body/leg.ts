@@ -1,14 +1,12 @@
 import { SOLE } from '../../motion/skeleton/kinematics';
 import { J } from '../../motion/skeleton/skeleton';
 import { blendWeights, boneSegment, gradual, hinge, jointOf } from './bone-segment';
-import { add, dot, length, scale, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
+import { add, dot, length, scale, sub, type Vec3, smoothstep, X_AXIS } from '../../motion/math/vec3';
 import { smoothUnion, unit } from './field';
 import { ball, limbPart, type BodyPlan, type Part, type Side } from './part';
 
 /** Width over which the edge of the sole is rounded, metres. */
 const SOLE_EDGE = 0.012;
-
-const SIDEWAYS: Vec3 = [1, 0, 0];
 
 export function buttock({ at, build }: BodyPlan, side: Side): Part {
   const hip = jointOf(side, 'hip');
@@ -26,7 +24,7 @@ export function thigh({ at, build }: BodyPlan, side: Side): Part {
     joints: [J.pelvis, hip, knee],
     from: at[hip]!,
     to: at[knee]!,
-    across: SIDEWAYS,
+    across: X_AXIS,
     stations: [
       { at: 0, wide: 0.075, deep: 0.09 },
       { at: 0.32, wide: 0.074, deep: 0.085 },
@@ -45,7 +43,7 @@ export function shin({ at, build }: BodyPlan, side: Side): Part {
     joints: [jointOf(side, 'hip'), knee, ankle],
     from: at[knee]!,
     to: at[ankle]!,
-    across: SIDEWAYS,
+    across: X_AXIS,
     stations: [
       { at: 0, wide: 0.0425, deep: 0.0455 },
       { at: 0.12, wide: 0.046, deep: 0.05, shift: -0.005 },

@@ -5,7 +5,7 @@ import { bindPose } from './bind-pose';
 import { smoothUnion } from './field';
 import { shapesNear, type Build, type Shape } from './part';
 import { skinTo, type Skin } from './skin';
-import { surfaceNets, triangulate, type Grid, type Net } from './surface-nets';
+import { neighbourMeans, surfaceNets, triangulate, type Grid, type Net } from './surface-nets';
 
 /** A body in the bind pose, ready to be skinned. */
 export interface BodyMesh extends Skin {
@@ -127,16 +127,8 @@ function relax(net: Net, shapes: readonly Shape[]): Float32Array {
 
 /** Moves each vertex half of the way to the mean of its neighbours (in place). */
 function smooth({ positions, quads }: Net): void {
-  const sums = new Float32Array(positions.length);
-  const links = new Float32Array(positions.length / 3);
-  for (let side = 0; side < quads.length; side++) {
-    const from = quads[side]!;
-    const to = quads[side % 4 === 3 ? side - 3 : side + 1]!;
-    links[from]!++;
-    for (let axis = 0; axis < 3; axis++) sums[from * 3 + axis]! += positions[to * 3 + axis]!;
-  }
-  for (let i = 0; i < positions.length; i++)
-    positions[i]! += 0.5 * (sums[i]! / links[Math.floor(i / 3)]! - positions[i]!);
+  const means = neighbourMeans(quads, positions, 3);
+  for (let i = 0; i < positions.length; i++) positions[i]! += 0.5 * (means[i]! - positions[i]!);
 }
 
 /**

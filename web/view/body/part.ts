@@ -81,8 +81,6 @@ export const halfBuildScale = (build: Build): number => 1 + (build.width - 1) / 
 export const scaledBy = (factor: number, stations: readonly Station[]): Station[] =>
   stations.map((s) => ({ ...s, wide: s.wide * factor, deep: (s.deep ?? s.wide) * factor }));
 
-export const movedBy = (joint: number) => (): Weights => [[joint, 1]];
-
 /** Distance from the middle plane from which on left and right of a pair do not blend, metres. */
 const PAIR_BLEND_WIDTH = 0.14;
 

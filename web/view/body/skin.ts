@@ -1,6 +1,6 @@
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import { shapesNear, type Part } from './part';
-import type { Net } from './surface-nets';
+import { neighbourMeans, type Net } from './surface-nets';
 
 /** Skin weights of a mesh. */
 export interface Skin {
@@ -37,27 +37,11 @@ export function skinTo(net: Net, parts: readonly Part[], cell: number): Skin {
     });
     for (let j = 0; j < JOINT_COUNT; j++) shares[v * JOINT_COUNT + j]! /= total;
   }
-  for (let pass = 0; pass < SMOOTHING; pass++) shares = smoothed(shares, net.quads, count);
-  return strongest(shares, count);
-}
-
-/** One step of averaging with the neighbours. */
-function smoothed(shares: Float32Array, quads: Uint32Array, count: number): Float32Array<ArrayBuffer> {
-  const out = new Float32Array(shares.length);
-  const links = new Float32Array(count);
-  // Every side is met once in each direction, so one direction here links both ends.
-  for (let side = 0; side < quads.length; side++) {
-    const from = quads[side]!;
-    const to = quads[side % 4 === 3 ? side - 3 : side + 1]!;
-    links[from]!++;
-    for (let j = 0; j < JOINT_COUNT; j++) out[from * JOINT_COUNT + j]! += shares[to * JOINT_COUNT + j]!;
+  for (let pass = 0; pass < SMOOTHING; pass++) {
+    const means = neighbourMeans(net.quads, shares, JOINT_COUNT);
+    shares = shares.map((share, i) => 0.5 * share + 0.5 * means[i]!);
   }
-  for (let v = 0; v < count; v++)
-    for (let j = 0; j < JOINT_COUNT; j++) {
-      const at = v * JOINT_COUNT + j;
-      out[at] = 0.5 * shares[at]! + (0.5 * out[at]!) / links[v]!;
-    }
-  return out;
+  return strongest(shares, count);
 }
 
 /** Keeps the four largest shares of each vertex and makes them sum to 1. */

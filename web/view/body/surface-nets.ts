@@ -229,3 +229,21 @@ export function triangulate({ positions, quads }: Net): Uint32Array {
   }
   return indices;
 }
+
+/**
+ * The mean of each vertex's neighbours.
+ * @param values vertices x width
+ * @returns vertices x width
+ */
+export function neighbourMeans(quads: Uint32Array, values: Float32Array, width: number): Float64Array {
+  const sums = new Float32Array(values.length);
+  const links = new Float32Array(values.length / width);
+  // Every side is met once in each direction, so one direction here links both ends.
+  for (let side = 0; side < quads.length; side++) {
+    const from = quads[side]!;
+    const to = quads[side % 4 === 3 ? side - 3 : side + 1]!;
+    links[from]!++;
+    for (let i = 0; i < width; i++) sums[from * width + i]! += values[to * width + i]!;
+  }
+  return new Float64Array(sums).map((sum, i) => sum / links[Math.floor(i / width)]!);
+}

@@ -1,7 +1,7 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { shoulderCentre } from './arm';
 import { blendWeights, boneSegment, gradual, jointOf } from './bone-segment';
-import { add, length, scale, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
+import { add, length, scale, sub, type Vec3, smoothstep, X_AXIS, Z_AXIS } from '../../motion/math/vec3';
 import { limbPart, scaledToBuild, type BodyPlan, type Part, type Side } from './part';
 
 /**
@@ -29,7 +29,7 @@ export function torso({ at, build }: BodyPlan): Part {
     [J.spine2, (at[J.spine2]![1] + at[J.spine3]![1]) / 2],
     [J.spine3, at[J.spine3]![1] + 0.06],
   ];
-  return limbPart({ from, to, across: [1, 0, 0], stations, exponent: 2.3 }, 0, (_, y) => {
+  return limbPart({ from, to, across: X_AXIS, stations, exponent: 2.3 }, 0, (_, y) => {
     for (let i = 0; i < spine.length - 1; i++) {
       const [joint, low] = spine[i]!;
       const [next, high] = spine[i + 1]!;
@@ -48,7 +48,7 @@ export function shoulderSlope({ at, build }: BodyPlan, side: Side): Part {
     joints: [J.spine3, jointOf(side, 'collar'), jointOf(side, 'shoulder')],
     from,
     to,
-    across: [0, 0, 1],
+    across: Z_AXIS,
     stations: [
       { at: 0, wide: 0.056, deep: 0.037 },
       { at: 1, wide: 0.057, deep: 0.042 },
