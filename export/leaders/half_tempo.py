@@ -6,24 +6,23 @@ from export.leaders.hands import HELD, LOW, OPEN, RAISED, ROUND, WIDE
 from export.leaders.steps import Dance, sides
 
 
-def side(dance: Dance, sign: float = 1.0) -> None:
-    """A long step to the side on 1, the other foot drawn up on 3, a sway on 5 and 7."""
-    near, far = sides(sign)
-    dance.step(0, near, 0.0, 0.0, move=(sign * 0.36, 0.0), swing=1.5, lift=0.04)
-    dance.step(2.4, far, sign * 0.02, 0.0, swing=1.7, lift=0.02)
-    dance.step(4.4, near, sign * 0.20, -0.02, swing=1.3, lift=0.035)
-    dance.step(6.6, far, sign * 0.05, 0.03, swing=1.5, lift=0.02, weight=False)
-    dance.hand(0, near, HELD)
-    dance.hand(0.4, far, ROUND)
-    dance.hand(4.5, near, WIDE)
-    dance.hand(6.2, near, (0.34, 0.10, 0.2))
-    dance.hand(8, near, HELD)
-    dance.key(dance.twist, (2, 0), (4.6, sign * 14), (7.6, 0))
+def side(dance: Dance) -> None:
+    """A long step to the left on 1, the other foot drawn up on 3, a sway on 5 and 7."""
+    dance.step(0, "left", 0.0, 0.0, move=(0.36, 0.0), swing=1.5, lift=0.04)
+    dance.step(2.4, "right", 0.02, 0.0, swing=1.7, lift=0.02)
+    dance.step(4.4, "left", 0.20, -0.02, swing=1.3, lift=0.035)
+    dance.step(6.6, "right", 0.05, 0.03, swing=1.5, lift=0.02, weight=False)
+    dance.hand(0, "left", HELD)
+    dance.hand(0.4, "right", ROUND)
+    dance.hand(4.5, "left", WIDE)
+    dance.hand(6.2, "left", (0.34, 0.10, 0.2))
+    dance.hand(8, "left", HELD)
+    dance.key(dance.twist, (2, 0), (4.6, 14), (7.6, 0))
     dance.key(dance.lean, (3, 0), (5, 3), (7.5, 0))
     dance.key(dance.crouch, (-1, 0), (0.3, 0.03), (2.4, 0.0), (4.6, 0.035), (7.4, 0.0))
     dance.next()
     # What was only tapped is where the next figure begins.
-    dance.place = dance.place + dance.axes() @ (sign * 0.1, 0.0)
+    dance.place = dance.place + dance.axes() @ (0.1, 0.0)
 
 
 def basic(dance: Dance, sense: float) -> None:
@@ -71,7 +70,7 @@ def walk(dance: Dance, turn: float) -> None:
     dance.next()
 
 
-def lunge(dance: Dance, sign: float = 1.0) -> None:
+def lunge(dance: Dance, sign: float) -> None:
     """A wide step with a bent knee, arms open, held, and back up."""
     near, far = sides(sign)
     dance.step(0.2, near, sign * 0.50, 0.10, swing=1.5, lift=0.06)

@@ -19,12 +19,12 @@ def basic(dance: Dance, length: float = 0.30) -> None:
     dance.next()
 
 
-def side_basic(dance: Dance, length: float = 0.30) -> None:
+def side_basic(dance: Dance) -> None:
     """To the left, replace, close; to the right, replace, close; arms open with it."""
-    dance.step(0, "left", length, -0.03)
+    dance.step(0, "left", 0.30, -0.03)
     dance.step(1, "right", lift=0.03)
     dance.step(2, "left")
-    dance.step(4, "right", -length, -0.03)
+    dance.step(4, "right", -0.30, -0.03)
     dance.step(5, "left", lift=0.03)
     dance.step(6, "right")
     dance.hand(0, "left", OPEN)
@@ -69,19 +69,19 @@ def cross_body(dance: Dance) -> None:
     dance.next()
 
 
-def spot_turn(dance: Dance, sense: float = -1.0) -> None:
-    """A basic step whose second half is a whole turn on the spot; to the right for sense -1."""
+def spot_turn(dance: Dance) -> None:
+    """A basic step whose second half is a whole turn on the spot, to the right."""
     dance.step(0, "left", 0.0, 0.2)
     dance.step(1, "right", lift=0.03)
-    dance.step(2, "left", turn=sense * 40)
-    dance.step(4, "right", -0.02, -0.03, turn=sense * 110, lift=0.03)
-    dance.step(5, "left", 0.0, 0.02, turn=sense * 120, lift=0.03)
-    dance.step(6, "right", turn=sense * 90, lift=0.03)
+    dance.step(2, "left", turn=-40)
+    dance.step(4, "right", -0.02, -0.03, turn=-110, lift=0.03)
+    dance.step(5, "left", 0.0, 0.02, turn=-120, lift=0.03)
+    dance.step(6, "right", turn=-90, lift=0.03)
     dance.both(2.2, LOW)
     dance.both(4.2, CHEST)
     dance.both(6.2, CHEST)
     dance.both(7.4, LOW)
-    dance.key(dance.twist, (2, 0), (3.2, -sense * 14), (4.5, sense * 12), (6.5, 0))
+    dance.key(dance.twist, (2, 0), (3.2, 14), (4.5, -12), (6.5, 0))
     dance.next()
 
 

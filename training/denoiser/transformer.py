@@ -88,9 +88,9 @@ def phase(block: int) -> Tensor:
     return torch.stack([angle.sin(), angle.cos()], dim=-1)
 
 
-def sinusoidal(block: int, frequencies: int = 16) -> Tensor:
-    """Positions of Vaswani et al. 2017 for one block: (block, 2 frequencies), wavelengths from 2 pi to 2000 pi."""
-    rates = torch.exp(torch.linspace(0, -math.log(1000), frequencies))
+def sinusoidal(block: int) -> Tensor:
+    """Positions of Vaswani et al. 2017 for one block: (block, 32), wavelengths from 2 pi to 2000 pi."""
+    rates = torch.exp(torch.linspace(0, -math.log(1000), 16))
     angle = torch.arange(block)[:, None] * rates
     return torch.cat([angle.sin(), angle.cos()], dim=-1)
 

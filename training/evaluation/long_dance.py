@@ -34,8 +34,8 @@ def _continued(duet: Duet, after: Duet) -> Duet:
     return Duet(duet.name, moved(duet.leader), moved(duet.reactor))
 
 
-def joined(held_out: Sequence[HeldOutDuet], frames: int = FRAMES) -> HeldOutDuet:
-    """The duets and their mirror images as one, cut to a number of frames if they last longer.
+def joined(held_out: Sequence[HeldOutDuet]) -> HeldOutDuet:
+    """The duets and their mirror images as one, cut to `FRAMES` if they last longer.
 
     Music is (T, F) features, zero where a duet's music ends before the duet; None if a duet has none.
     """
@@ -48,9 +48,9 @@ def joined(held_out: Sequence[HeldOutDuet], frames: int = FRAMES) -> HeldOutDuet
             padded[: len(item.music)] = item.music[: len(duet)]
             music.append(padded)
     leader, reactor = (
-        np.concatenate(parts)[:frames] for parts in zip(*((p.leader, p.reactor) for p in pieces), strict=True)
+        np.concatenate(parts)[:FRAMES] for parts in zip(*((p.leader, p.reactor) for p in pieces), strict=True)
     )
-    whole = np.concatenate(music)[:frames] if len(music) == len(pieces) else None
+    whole = np.concatenate(music)[:FRAMES] if len(music) == len(pieces) else None
     return HeldOutDuet(Duet("long dance", leader, reactor), whole)
 
 

@@ -68,7 +68,7 @@ def constant_bones(motion: Tensor, lengths: Tensor) -> Tensor:
     return motion[..., :1, :] + _BONES_ABOVE.to(motion) @ bones
 
 
-def keep_toe_height(motion: Tensor, before: Tensor, floor: bool = True) -> Tensor:
+def keep_toe_height(motion: Tensor, before: Tensor, floor: bool) -> Tensor:
     """`motion` raised or lowered until its lower toe is as high as it was `before`; both (N, T, 22, 3) metres.
 
     Legs that have been given their length push the feet through the floor. The whole body is raised, smoothly over

@@ -51,14 +51,14 @@ _KIT = Kit(
 )
 
 
-def piano_note(rate: int, note: int, seconds: float, loudness: float) -> np.ndarray:
+def piano_note(note: int, seconds: float, loudness: float) -> np.ndarray:
     """A piano note (N,): slightly inharmonic partials, higher ones decay sooner and are louder in loud notes."""
-    t = np.arange(int(rate * (seconds + 0.25))) / rate
+    t = np.arange(int(RATE * (seconds + 0.25))) / RATE
     hertz = midi_hertz(note)
     sound = np.zeros(len(t))
     for k in range(1, 13):
         partial = k * hertz * np.sqrt(1 + 0.0004 * k * k)
-        if partial < rate / 2:
+        if partial < RATE / 2:
             level = np.exp(-k * (0.55 - 0.2 * loudness)) * (0.5 if k % 7 == 0 else 1.0)
             sound += level * np.sin(2 * np.pi * partial * t + k) * np.exp(-t * (1.2 + 0.5 * k))
     damper = np.clip((seconds + 0.12 - t) / 0.12, 0, 1)
@@ -83,7 +83,7 @@ def piano(tempo: Tempo, samples: int, from_cycle: int, rng: np.random.Generator)
             length = eighth * (0.9 if position % 4 else 1.4)
             at = start + position * eighth + rng.normal(0, 0.003)
             for note in notes:
-                track.add(at, piano_note(RATE, note, length, rng.uniform(0.7, 1.0)), 0.3)
+                track.add(at, piano_note(note, length, rng.uniform(0.7, 1.0)), 0.3)
     return track.samples
 
 
@@ -139,7 +139,7 @@ def demo_song(tempo: Tempo, cycles: int, seed: int) -> np.ndarray:
         mix += line * (share * level / np.std(line[playing]))
     ending = Track(RATE, total)
     for note in (45, 57, 64, 69, 72, 76):
-        ending.add(tempo.first + cycles * cycle, piano_note(RATE, note, 1.4, 0.9), 0.12)
+        ending.add(tempo.first + cycles * cycle, piano_note(note, 1.4, 0.9), 0.12)
     mix = add_reverb(mix + ending.samples, rng)
     # tanh compresses peaks; a peak of 0.75 leaves headroom for the overshoot of MP3 coding.
     mix = np.tanh(1.6 * mix / np.percentile(np.abs(mix), 99.9))

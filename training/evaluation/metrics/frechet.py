@@ -104,15 +104,15 @@ def fid(truth: np.ndarray, generated: np.ndarray, mode: Mode = "corrected", resa
     return Interval(value, float(low), float(high))
 
 
-def fid_of_others(truth: np.ndarray, others: np.ndarray, draws: int = 100) -> Interval:
+def fid_of_others(truth: np.ndarray, others: np.ndarray) -> Interval:
     """FID between features (N, D) of true clips and as many of other true dances, drawn from (M, D): the median over
-    draws, and the limits of 95 % of them. What a perfect copy has is 0, what other dances of the same dancers have is
-    this.
+    100 draws, and the limits of 95 % of them. What a perfect copy has is 0, what other dances of the same dancers
+    have is this.
     """
     first, second = normalise(truth, others)
     random = np.random.default_rng(0)
     count = min(len(first), len(second))
-    values = [frechet(first, second[random.choice(len(second), count, replace=False)]) for _ in range(draws)]
+    values = [frechet(first, second[random.choice(len(second), count, replace=False)]) for _ in range(100)]
     low, middle, high = np.percentile(values, [2.5, 50, 97.5])
     return Interval(float(middle), float(low), float(high))
 

@@ -15,12 +15,12 @@ from training.evaluation.metrics.modes import Mode, feature_pose
 RADIUS_FRAMES = 2  # on each side, over which velocities and accelerations are averaged
 
 
-def _window_mean(values: np.ndarray, first: int, frames: int) -> np.ndarray:
-    """Mean over i-2..i+2 of values that exist at frames first..first+len-1, for i = 1..frames-1."""
+def _window_mean(values: np.ndarray, frames: int) -> np.ndarray:
+    """Mean over i-2..i+2 of values that exist at frames 1..len, for i = 1..frames-1."""
     total = np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
     i = np.arange(1, frames)
-    low = np.clip(i - RADIUS_FRAMES - first, 0, len(values))
-    high = np.clip(i + RADIUS_FRAMES + 1 - first, 0, len(values))
+    low = np.clip(i - RADIUS_FRAMES - 1, 0, len(values))
+    high = np.clip(i + RADIUS_FRAMES, 0, len(values))
     count = np.maximum(high - low, 1)
     return (total[high] - total[low]) / count[:, None, None]
 
@@ -41,10 +41,10 @@ def kinetic_features(motion: np.ndarray, mode: Mode) -> np.ndarray:
         raise ValueError(f"kinetic features need at least 4 frames, got {frames}")
     time = 1 / 60 if mode == "paper" else 1 / FPS
     velocity = np.diff(pose, axis=0) / time  # at frames 1..T-1
-    mean_velocity = _window_mean(velocity, 1, frames)
+    mean_velocity = _window_mean(velocity, frames)
     horizontal = (mean_velocity[..., [0, 2]] ** 2).sum(axis=-1).mean(axis=0)
     vertical = (mean_velocity[..., 1] ** 2).mean(axis=0)
     before = pose[1:-1] - pose[:-2] / time if mode == "paper" else velocity[:-1]
-    acceleration = _window_mean((velocity[1:] - before) / time, 1, frames)  # at frames 1..T-2
+    acceleration = _window_mean((velocity[1:] - before) / time, frames)  # at frames 1..T-2
     expenditure = np.linalg.norm(acceleration, axis=-1).mean(axis=0)
     return np.stack([horizontal, vertical, expenditure], axis=-1).reshape(-1)

@@ -132,8 +132,8 @@ def write_report(
     out: Path,
     title: str,
     facts: dict[str, Any],
-    pictures: bool = True,
-    videos: bool = True,
+    pictures: bool,
+    videos: bool,
 ) -> list[ThresholdResult]:
     """metrics.json, report.md, pictures and videos into a folder, the table on the screen.
 

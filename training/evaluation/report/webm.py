@@ -18,12 +18,12 @@ CLUSTER_FRAMES = 30  # of a Matroska cluster, which has one time stamp and one e
 _MILLISECOND_NS = 1_000_000  # the unit of all times in the file
 
 
-def key_frame(picture: Image.Image, quality: int = 70) -> bytes:
+def key_frame(picture: Image.Image) -> bytes:
     """The VP8 key frame of an RGB picture."""
     if picture.mode != "RGB":  # an alpha channel would be kept beside the VP8 data, not in it
         raise ValueError(f"a video frame has to be RGB, got {picture.mode}")
     box = io.BytesIO()
-    picture.save(box, "WEBP", quality=quality, method=2)
+    picture.save(box, "WEBP", quality=70, method=2)
     data = box.getvalue()
     if data[12:16] != b"VP8 ":
         raise ValueError(f"expected a lossy WebP picture, got chunk {data[12:16]!r}")
