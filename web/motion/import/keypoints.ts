@@ -2,9 +2,9 @@ import { withoutGaps } from './gaps';
 import { type About, type Positions, sourceOfPositions } from './positions';
 import type { MotionSource } from '../retarget/source';
 import { BALL_SHARE, HEAD_SHARE, NECK_UP } from '../skeleton/landmarks';
+import { type Side, SIDES } from '../skeleton/skeleton';
 import { lerp, readVec, type Vec3, writeVec } from '../math/vec3';
 
-const SIDES = ['left', 'right'] as const;
 /** Points of a side that are joints as they are. */
 const LIMBS = ['shoulder', 'elbow', 'wrist', 'hip', 'knee', 'ankle'] as const;
 /** Names of the tip of the toes. */
@@ -22,7 +22,7 @@ const wordOf = (name: string): string =>
 /** Indices of the points that are needed; null where these are no such points. */
 function pointsOf(names: readonly string[]) {
   const words = names.map(wordOf);
-  const indexOf = (side: (typeof SIDES)[number], parts: readonly string[]): number =>
+  const indexOf = (side: Side, parts: readonly string[]): number =>
     words.findIndex((word) => parts.some((part) => word === side + part || word === side[0]! + part));
   const pair = (...parts: string[]) => SIDES.map((side) => indexOf(side, parts)) as [number, number];
   const limbs = SIDES.flatMap((side) =>

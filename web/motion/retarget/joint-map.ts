@@ -5,7 +5,7 @@ import type { SourceJoint } from './source';
 import { mapByStructure } from './structure';
 import { BVH_NAMES, isOwnSkeleton, OWN_CONVENTION } from '../bvh/names';
 import { AppError } from '../../common/error';
-import { type JointName, otherSide, SMPL22 } from '../skeleton/skeleton';
+import { type JointName, otherSide, SIDES, SMPL22 } from '../skeleton/skeleton';
 import { distance, type Vec3 } from '../math/vec3';
 
 /** How joints were found: by their names, by the shape of the body, or set by hand. */
@@ -41,7 +41,7 @@ function missingJoints(
   found: ReadonlyMap<JointName, number>,
 ): AppError | null {
   const missingOf = (limb: readonly LimbJoint[]): string[] =>
-    (['left', 'right'] as const).flatMap((side) =>
+    SIDES.flatMap((side) =>
       limb.filter((joint) => !found.has(jointOf(side, joint))).map((joint) => `${side} ${joint}`),
     );
   const [legs, arms] = [missingOf(LEG), missingOf(ARM)];
@@ -138,7 +138,7 @@ function asymmetry(
   const doubts: string[] = [];
   let share = 1;
   for (const [bone, from, to] of BONES) {
-    const [left, right] = (['left', 'right'] as const).map((side) => {
+    const [left, right] = SIDES.map((side) => {
       const ends = [from, to].map((joint) => found.get(`${side}_${joint}`));
       return ends.includes(undefined) ? NaN : distance(places[ends[0]!]!, places[ends[1]!]!);
     }) as [number, number];

@@ -1,27 +1,16 @@
 /** Joints that are found by their names, which a family of programs has in common. */
 import { CONVENTIONS, LIMB_JOINTS, type LimbJoint, type SkeletonConvention } from './conventions';
 import type { SourceJoint } from './source';
-import type { JointName } from '../skeleton/skeleton';
+import { type JointName, type Side, SIDES } from '../skeleton/skeleton';
 
-/** Name in the SMPL skeleton of a limb's joint. */
-const SMPL_NAMES: Readonly<Record<LimbJoint, string>> = {
-  hip: 'hip',
-  knee: 'knee',
-  ankle: 'ankle',
-  toe: 'foot',
-  shoulder: 'shoulder',
-  elbow: 'elbow',
-  wrist: 'wrist',
-  collar: 'collar',
-};
 /** The joints of the trunk, which nearly every convention places differently. */
 export const TRUNK_JOINTS: readonly JointName[] = ['pelvis', 'spine1', 'spine2', 'spine3'];
 export const LEG: readonly LimbJoint[] = ['hip', 'knee', 'ankle'];
 export const ARM: readonly LimbJoint[] = ['shoulder', 'elbow', 'wrist'];
 
 /** A joint of a limb by its name among the 22. */
-export function jointOf(side: 'left' | 'right', limb: LimbJoint): JointName {
-  return `${side}_${SMPL_NAMES[limb]}` as JointName;
+export function jointOf(side: Side, limb: LimbJoint): JointName {
+  return `${side}_${limb === 'toe' ? 'foot' : limb}`;
 }
 
 /** A name in the form that is compared; null where it lacks the convention's prefix. */
@@ -103,7 +92,7 @@ function findJoints(
     }
   };
   for (const limb of LIMB_JOINTS) {
-    (['left', 'right'] as const).forEach((side, i) => {
+    SIDES.forEach((side, i) => {
       take(
         jointOf(side, limb),
         convention.limbs[limb].map((word) => word.replace('*', sides[i]!)),
@@ -119,7 +108,7 @@ function findJoints(
 /** Number of required joints that were found; 0 where the convention has a trunk of which a joint is missing. */
 function score(convention: SkeletonConvention, found: ReadonlyMap<JointName, number>): number {
   if (convention.trunk !== undefined && !TRUNK_JOINTS.every((joint) => found.has(joint))) return 0;
-  const limbs = [...LEG, ...ARM].flatMap((limb) => [jointOf('left', limb), jointOf('right', limb)]);
+  const limbs = [...LEG, ...ARM].flatMap((limb) => SIDES.map((side) => jointOf(side, limb)));
   return limbs.filter((joint) => found.has(joint)).length + (found.has('head') || found.has('neck') ? 1 : 0);
 }
 

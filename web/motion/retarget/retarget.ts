@@ -3,7 +3,7 @@ import type { NodeMotion } from './sample';
 import type { SourceJoint } from './source';
 import type { JointMap } from './joint-map';
 import { conjugate, IDENTITY, multiply, type Quat, readQuat, rotate } from '../math/quat';
-import { J, type JointName, SMPL22 } from '../skeleton/skeleton';
+import { J, type JointName, type Side, SIDES, SMPL22 } from '../skeleton/skeleton';
 import { add, direction, distance, length, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
 
 /**
@@ -28,8 +28,6 @@ const MIN_FOOT_LENGTH = 0.04;
 /** Largest difference in a quaternion of rotations that are the same. */
 const SAME_TURN = 1e-6;
 
-const SIDES = ['left', 'right'] as const;
-
 /** The body in a file: its joint map, the motion of its nodes and the rotation to y up. */
 export interface Body {
   readonly map: JointMap;
@@ -37,14 +35,14 @@ export interface Body {
   /** Rotation of the file's axes that makes y up. */
   readonly up: Quat;
   /** Node of each side's toe, or null where it is estimated. */
-  readonly toes: Readonly<Record<(typeof SIDES)[number], number | null>>;
+  readonly toes: Readonly<Record<Side, number | null>>;
 }
 
 /**
  * The toe joint; else what is below the ankle: a joint that is called a toe, the only joint, or the end site. Null where
  * the file has none of them. Where joints were chosen by hand, no other joint is taken.
  */
-function toeNode(nodes: readonly SourceJoint[], map: JointMap, side: (typeof SIDES)[number]): number | null {
+function toeNode(nodes: readonly SourceJoint[], map: JointMap, side: Side): number | null {
   const named = map.nodes.get(`${side}_foot`);
   if (named !== undefined) return named;
   const ankle = map.nodes.get(`${side}_ankle`)!;
@@ -154,7 +152,7 @@ export function withToes(nodes: readonly SourceJoint[], map: JointMap, motion: N
  * clip where the ankle turns, so that the foot turns with it; by the hips of each frame where it never does, as in files
  * of positions.
  */
-function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): (frame: number) => Vec3 {
+function estimatedToe(body: Body, side: Side, trunk: number): (frame: number) => Vec3 {
   const turns = body.motion.rotation(body.map.nodes.get(`${side}_ankle`)!);
   const turn = (frame: number): Quat => multiply(body.up, readQuat(turns, frame));
   const ahead = (frame: number): Vec3 => add(scale(hipForward(body, frame), TOE_FORWARD), [0, -TOE_DOWN, 0]);
@@ -168,7 +166,7 @@ function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): 
 }
 
 /** Place of a side's toe in a frame, y up: that of the file, or an estimate. */
-function toePlace(body: Body, side: (typeof SIDES)[number], trunk: number): (frame: number) => Vec3 {
+function toePlace(body: Body, side: Side, trunk: number): (frame: number) => Vec3 {
   const toe = body.toes[side];
   if (toe !== null) return (frame) => nodeAt(body, frame, toe);
   const step = estimatedToe(body, side, trunk);

@@ -2,7 +2,7 @@ import { sampleNodes, type NodeMotion, worldPose } from './sample';
 import type { MotionSource } from './source';
 import type { JointMap } from './joint-map';
 import { conjugate, type Quat, readQuat, rotate } from '../math/quat';
-import type { JointName } from '../skeleton/skeleton';
+import { type JointName, SIDES } from '../skeleton/skeleton';
 import { direction, distance, dot, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
 
 /** Frames after the first one with which it is compared, at most and at least. */
@@ -23,7 +23,6 @@ const MAX_TRANSITION_FRAMES = 8;
 const MIN_TRANSITION_SPEED = 0.03;
 const TRANSITION_SPEED_RATIO = 4;
 
-const SIDES = ['left', 'right'] as const;
 const BONES = SIDES.flatMap((side) => [
   [`${side}_hip`, `${side}_knee`],
   [`${side}_knee`, `${side}_ankle`],

@@ -38,6 +38,9 @@ export const PARENTS: readonly number[] = [
   -1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19,
 ];
 
+export const SIDES = ['left', 'right'] as const;
+export type Side = (typeof SIDES)[number];
+
 /** The joint on the other side of the body; one in the middle is its own. */
 export const otherSide = (joint: JointName): JointName =>
   joint.replace(/^(left|right)/, (side) => (side === 'left' ? 'right' : 'left')) as JointName;

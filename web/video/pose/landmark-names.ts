@@ -1,3 +1,5 @@
+import { type Side, SIDES } from '../../motion/skeleton/skeleton';
+
 /** Landmarks of MediaPipe Pose that are used, by name. */
 export const L = {
   nose: 0,
@@ -34,11 +36,11 @@ export const BODY: readonly number[] = [11, 12, 13, 14, 15, 16, 23, 24, 25, 26, 
 export const BONES: readonly {
   readonly from: number;
   readonly to: number;
-  readonly side: 'left' | 'right' | 'middle';
+  readonly side: Side | 'middle';
 }[] = [
   { from: L.left_shoulder, to: L.right_shoulder, side: 'middle' },
   { from: L.left_hip, to: L.right_hip, side: 'middle' },
-  ...(['left', 'right'] as const).flatMap((side) =>
+  ...SIDES.flatMap((side) =>
     (
       [
         ['shoulder', 'elbow'],

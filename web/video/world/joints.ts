@@ -1,6 +1,6 @@
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { BALL_SHARE, HEAD_SHARE, NECK_UP } from '../../motion/skeleton/landmarks';
-import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
+import { J, JOINT_COUNT, SIDES } from '../../motion/skeleton/skeleton';
 import { add, lerp, readVec, scale, sub, type Vec3, writeVec } from '../../motion/math/vec3';
 import { L } from '../pose/landmark-names';
 
@@ -32,7 +32,7 @@ export function jointsOf(landmarks: Float64Array): Float32Array {
     put(J.neck, neck);
     put(J.head, lerp(neck, lerp(at(L.left_ear), at(L.right_ear), 0.5), HEAD_SHARE));
     const base = along(COLLAR_UP);
-    for (const side of ['left', 'right'] as const) {
+    for (const side of SIDES) {
       const shoulder = at(L[`${side}_shoulder`]);
       put(J[`${side}_collar`], lerp(base, shoulder, COLLAR_SHARE));
       put(J[`${side}_shoulder`], shoulder);

@@ -2,13 +2,14 @@ import type { ContactInterval } from '../../motion/contact/foot-contacts';
 import { solveEven } from '../../motion/math/pentadiagonal';
 import { median } from '../../motion/math/statistics';
 import { distance, readVec, scale, type Vec3, writeVec } from '../../motion/math/vec3';
+import { SIDES } from '../../motion/skeleton/skeleton';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import type { DepthCues } from './depth';
 import { type Ground, onFloor } from './ground';
 import { L } from '../pose/landmark-names';
 import { raysOf } from './stance';
 
-const LEGS = (['left', 'right'] as const).map((side) => ({
+const LEGS = SIDES.map((side) => ({
   hip: L[`${side}_hip`],
   knee: L[`${side}_knee`],
   ankle: L[`${side}_ankle`],

@@ -1,7 +1,7 @@
 import { FPS } from '../../motion/skeleton/clip';
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
 import { gaussianFilter, runsBelow, runsOf } from '../../motion/math/statistics';
-import { J } from '../../motion/skeleton/skeleton';
+import { J, SIDES } from '../../motion/skeleton/skeleton';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { L } from '../pose/landmark-names';
 import type { Series } from './series';
@@ -11,7 +11,7 @@ import type { Series } from './series';
  * tells that it stands. Networks turn a standing foot about its ankle with the body, so that its toe and heel move; where
  * the toe alone is at rest the dancer is on the ball of the foot.
  */
-const SOLES = (['left', 'right'] as const).flatMap((side) => [
+const SOLES = SIDES.flatMap((side) => [
   { joint: J[`${side}_ankle`], landmark: L[`${side}_heel`], still: [L[`${side}_ankle`]] },
   { joint: J[`${side}_foot`], landmark: L[`${side}_toe`], still: [L[`${side}_toe`], L[`${side}_ankle`]] },
 ]);
