@@ -37,7 +37,9 @@ function source(onDraw: (frame: number) => void): { source: VideoSource; stopped
   const canvas = { captureStream: () => ({ getTracks: () => [track], addTrack: () => undefined }) };
   return {
     source: {
-      ...{ width: 2, height: 2, fps: 30, frames: FRAMES, draw: onDraw },
+      fps: 30,
+      frames: FRAMES,
+      draw: onDraw,
       canvas: canvas as unknown as HTMLCanvasElement,
       sound: null,
     },

@@ -59,8 +59,6 @@ test('a failed video says whether the song or the video failed, a cancelled one 
     writeVideo(
       // This canvas cannot be recorded.
       {
-        width: 2,
-        height: 2,
         fps: 30,
         frames: 1,
         canvas: {} as HTMLCanvasElement,

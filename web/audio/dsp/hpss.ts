@@ -17,7 +17,7 @@ export function separateHarmonicPercussive(
   spectrogram: Spectrogram,
   recipe: AudioRecipe,
   visit: SeparatedFrame,
-  progress?: Progress,
+  progress: Progress,
 ): void {
   const { frames, bins, values } = spectrogram;
   const kernel = recipe.hpss_kernel;
@@ -42,7 +42,7 @@ export function separateHarmonicPercussive(
     const magnitudes = values.subarray(frame * bins, (frame + 1) * bins);
     maskFrame(magnitudes, harmonicMedian, percussiveMedian, recipe.hpss_power, harmonic, percussive);
     visit(frame, harmonic, percussive);
-    progress?.(frame + 1, frames);
+    progress(frame + 1, frames);
   }
 }
 

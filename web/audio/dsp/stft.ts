@@ -19,7 +19,7 @@ export type Progress = (done: number, total: number) => void;
  * @param audio mono samples at the recipe's rate
  * @returns `frameCount` rows of n_fft / 2 + 1 magnitudes
  */
-export function magnitudes(audio: Float32Array, recipe: AudioRecipe, progress?: Progress): Spectrogram {
+export function magnitudes(audio: Float32Array, recipe: AudioRecipe, progress: Progress): Spectrogram {
   const size = recipe.n_fft;
   const half = size / 2;
   const frames = frameCount(audio.length, recipe);
@@ -37,7 +37,7 @@ export function magnitudes(audio: Float32Array, recipe: AudioRecipe, progress?: 
     applyWindow(padded, frame * recipe.hop, window, even, odd);
     const { real, imag } = fft(even, odd);
     writeMagnitudes(real, imag, cosines, sines, values, frame * bins);
-    progress?.(frame + 1, frames);
+    progress(frame + 1, frames);
   }
   return { frames, bins, values };
 }

@@ -10,14 +10,12 @@ import {
 import { yieldToPage } from '../../common/yield-to-events';
 import { outputFormat, type VideoPlan } from './plan';
 import { decodeSound, songSamples, type Sound } from './song';
-import type { VideoOptions, VideoSource } from './source';
+import { AUDIO_BITRATE, type VideoOptions, type VideoSource } from './source';
 
 type EncodePlan = Extract<VideoPlan, { way: 'encode' }>;
 
 /** Time between key frames, from which seeking in the video starts, seconds. */
 const KEY_FRAME_INTERVAL = 2;
-/** Bits per second. */
-const AUDIO_BITRATE = 160_000;
 
 /**
  * Has H.264 encoded with its parameter sets in the stream (Annex B), from which the muxer writes the file's decoder
@@ -63,7 +61,7 @@ export async function encodeVideo(
       await pictures.add(frame / fps, 1 / fps);
       // Sound is added second by second, so that neither track is far behind the other in the file.
       if (audio && frame % fps === 0) await audio.writeUntil(Math.min(frames, frame + fps) / fps);
-      onProgress({ frame: frame + 1, frames });
+      onProgress(frame + 1);
       await yieldToPage();
     }
     signal.throwIfAborted();

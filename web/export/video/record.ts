@@ -1,11 +1,10 @@
 import { ALL_FORMATS, BlobSource, BufferTarget, Conversion, Input, Output } from 'mediabunny';
-import type { VideoSource, VideoOptions } from './source';
+import { AUDIO_BITRATE, type VideoOptions, type VideoSource } from './source';
 import { outputFormat, type VideoPlan } from './plan';
 import { decodeSound, type Sound, songSamples } from './song';
 
 /** Bits per second. */
 const VIDEO_BITRATE = 8_000_000;
-const AUDIO_BITRATE = 160_000;
 
 type RecordPlan = Extract<VideoPlan, { way: 'record' }>;
 
@@ -98,7 +97,7 @@ async function drawInTime(
   for (let frame = 0; frame < frames;) {
     signal.throwIfAborted();
     await draw(frame);
-    onProgress({ frame: frame + 1, frames });
+    onProgress(frame + 1);
     const next = Math.max(frame + 1, Math.floor(((performance.now() - begin) / 1000) * fps));
     await pause((next / fps) * 1000 - (performance.now() - begin));
     frame = next;

@@ -1,7 +1,8 @@
+/** Bits of a video's sound a second. */
+export const AUDIO_BITRATE = 160_000;
+
 /** Frames and sound of a video. */
 export interface VideoSource {
-  readonly width: number;
-  readonly height: number;
   readonly fps: number;
   readonly frames: number;
   readonly canvas: HTMLCanvasElement;
@@ -20,13 +21,8 @@ interface Soundtrack {
   readonly start: number;
 }
 
-export interface VideoProgress {
-  /** Number of frames written. */
-  readonly frame: number;
-  readonly frames: number;
-}
-
 export interface VideoOptions {
   readonly signal: AbortSignal;
-  readonly onProgress: (progress: VideoProgress) => void;
+  /** Called with the number of frames that are written. */
+  readonly onProgress: (frames: number) => void;
 }

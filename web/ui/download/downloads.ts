@@ -176,7 +176,6 @@ async function writeDance(
     };
     const file = await writeVideo(
       {
-        ...size,
         fps,
         frames,
         canvas: picture.canvas,
@@ -193,14 +192,10 @@ async function writeDance(
 }
 
 /** Puts the progress of a video and the time it will still take into the state. */
-function videoProgress(
-  store: Store,
-  frames: number,
-  signal: AbortSignal,
-): (progress: { readonly frame: number }) => void {
+function videoProgress(store: Store, frames: number, signal: AbortSignal): (frame: number) => void {
   const begin = performance.now();
   let updated = begin;
-  return ({ frame }) => {
+  return (frame) => {
     const now = performance.now();
     if (signal.aborted || now - updated < PROGRESS_INTERVAL_MS) return;
     updated = now;

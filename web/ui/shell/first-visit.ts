@@ -54,7 +54,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         {},
         el('span', { class: 'desk', text: 'Drop both anywhere. ' }),
         'Your files never leave this browser. ',
-        opensHowItWorks('How it works', 'link'),
+        opensHowItWorks(),
       ),
     ),
     howItWorks(),

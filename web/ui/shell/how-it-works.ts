@@ -19,10 +19,10 @@ function steps(): HTMLElement {
 }
 
 /** A button that opens the explanation. */
-export function opensHowItWorks(text: string, className: string): HTMLButtonElement {
+export function opensHowItWorks(): HTMLButtonElement {
   return el('button', {
-    class: className,
-    text,
+    class: 'link',
+    text: 'How it works',
     attributes: { type: 'button', popovertarget: ID, 'aria-haspopup': 'dialog' },
   });
 }

@@ -83,7 +83,7 @@ export async function recordCamera(
     setText(spoken, `The recording starts in ${COUNTDOWN} seconds.`);
     for (let left = COUNTDOWN; left > 0 && !cancelled.signal.aborted; left--) {
       setText(status, `${left}`);
-      await wait(1, cancelled.signal);
+      await oneSecond(cancelled.signal);
     }
     if (cancelled.signal.aborted) return null;
     stop.hidden = false;
@@ -166,7 +166,7 @@ async function record(
   const end = AbortSignal.any([done, cancelled, early.signal]);
   for (let second = 0; second < MAX_SECONDS && !end.aborted; second++) {
     setText(status, `Recording, ${second} of at most ${MAX_SECONDS} s`);
-    await wait(1, end);
+    await oneSecond(end);
   }
   const byItself = early.signal.aborted;
   if (recorder.state !== 'inactive') recorder.stop();
@@ -193,10 +193,10 @@ function cameraStopped(): AppError {
   );
 }
 
-/** Resolves after some seconds, or at once when the signal is aborted. */
-function wait(seconds: number, signal: AbortSignal): Promise<void> {
+/** Resolves after a second, or at once when the signal is aborted. */
+function oneSecond(signal: AbortSignal): Promise<void> {
   return new Promise((resolve) => {
-    const timer = setTimeout(resolve, seconds * 1000);
+    const timer = setTimeout(resolve, 1000);
     signal.addEventListener('abort', () => {
       clearTimeout(timer);
       resolve();

@@ -1,4 +1,4 @@
-import { newStamp, type TakeStamp } from '../add-take';
+import { newStamp } from '../add-take';
 import { clampedToStep } from '../guidance-matrix';
 import { withUndo } from '../history/history';
 import { sameInputs } from '../selectors';
@@ -100,7 +100,8 @@ export function variationsStopped(): Change {
 }
 
 /** Shows a variation at once with its settings, so that nothing is generated for them; one step of undo. */
-export function variationShown(reaction: Reaction, stamp: TakeStamp = newStamp()): Change {
+export function variationShown(reaction: Reaction): Change {
+  const stamp = newStamp();
   return (state) => {
     const { settings } = reaction.inputs;
     const asked = { ...state, ...withUndo(state, { settings }, stamp.at) };
