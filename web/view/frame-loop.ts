@@ -12,12 +12,8 @@ export interface FrameLoop {
   resume(): void;
   /** Draws now, for when waiting would show an empty canvas. */
   flush(): void;
-  /** Median main-thread milliseconds of the last frames. */
-  readonly frameMs: number;
 }
 
-/** Number of frames whose times are kept. */
-const TIMED_FRAMES = 60;
 /** Longest step between two frames, seconds: after a pause the camera goes on instead of jumping. */
 const MAX_STEP = 0.25;
 /** Longest time in which no frame is drawn because new ones are expected, milliseconds. */
@@ -33,7 +29,6 @@ export const idleLoop: FrameLoop = {
   release: () => undefined,
   resume: () => undefined,
   flush: () => undefined,
-  frameMs: 0,
 };
 
 /** What a loop calls. */
@@ -80,18 +75,14 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
   let restTimer: ReturnType<typeof setTimeout> | undefined;
   let lastFrameAt = 0;
   let running = false;
-  const times: number[] = [];
 
   function frame(now: number): void {
     request = 0;
     const dt = running ? Math.min(MAX_STEP, Math.max(0, (now - lastFrameAt) / 1000)) : 1 / 60;
     lastFrameAt = now;
-    const start = performance.now();
     hold.drawn();
     clearTimeout(restTimer);
     running = draw(dt);
-    times.push(performance.now() - start);
-    if (times.length > TIMED_FRAMES) times.shift();
     if (running) invalidate();
     else restTimer = setTimeout(atRest, REST_MS);
   }
@@ -129,10 +120,6 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
       waiting = false;
       if (request !== 0) cancelAnimationFrame(request);
       frame(performance.now());
-    },
-    get frameMs() {
-      const sorted = [...times].sort((a, b) => a - b);
-      return sorted[Math.floor(sorted.length / 2)] ?? 0;
     },
   };
 }

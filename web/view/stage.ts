@@ -19,8 +19,6 @@ interface StageStats {
   readonly drawCalls: number;
   /** Triangles of the last frame, shadow passes included. */
   readonly triangles: number;
-  /** Main-thread milliseconds a frame, median of the last 60. */
-  readonly frameMs: number;
   /** Frames drawn since the stage was made. */
   readonly frames: number;
 }
@@ -56,7 +54,6 @@ export class Stage {
   protected readonly view: StageRenderer;
   private readonly loop: FrameLoop;
   private readonly splitLabels: SplitLabels;
-  private readonly frameListeners = new Set<(stats: StageStats) => void>();
   private readonly lostListeners = new Set<(lost: boolean) => void>();
 
   /**
@@ -227,12 +224,6 @@ export class Stage {
     return this.view.canvas.pixels;
   }
 
-  /** Calls `listener` after every drawn frame; returns how to stop that. */
-  onFrame(listener: (stats: StageStats) => void): () => void {
-    this.frameListeners.add(listener);
-    return () => this.frameListeners.delete(listener);
-  }
-
   /** Calls `listener` when the browser stops drawing (true), and when it goes on (false). */
   onLost(listener: (lost: boolean) => void): void {
     this.lostListeners.add(listener);
@@ -240,7 +231,7 @@ export class Stage {
 
   stats(): StageStats {
     const { calls, triangles } = this.view.canvas.renderer.info.render;
-    return { drawCalls: calls, triangles, frameMs: this.loop.frameMs, frames: this.view.frames };
+    return { drawCalls: calls, triangles, frames: this.view.frames };
   }
 
   /** Resolves when the bodies of all dancers on the stage have been made and drawn. */
@@ -257,11 +248,7 @@ export class Stage {
 
   /** Draws a frame `dt` seconds after the one before; true asks for another. */
   protected drawFrame(dt: number): boolean {
-    if (this.view.canvas.lost) return false;
-    const moving = this.view.draw(dt);
-    const stats = this.stats();
-    for (const listener of this.frameListeners) listener(stats);
-    return moving;
+    return !this.view.canvas.lost && this.view.draw(dt);
   }
 
   private createFrameLoop(): FrameLoop {

@@ -46,7 +46,6 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
       part: 0,
       mappedBy: 'names',
       confidence: 1,
-      skeleton: '22-00000000',
       floor: 0,
       convention: 'Mixamo',
       joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),

@@ -17,8 +17,6 @@ export interface BestShift {
   readonly score: number;
   /** The score without a shift. */
   readonly before: number;
-  /** The gain in units of its own standard error. */
-  readonly confidence: number;
   /** Whether it is clearly better than no shift. Among so many shifts one is always a little better by chance. */
   readonly clear: boolean;
 }
@@ -68,9 +66,8 @@ export function bestShift(
   const gains = after.map((score, beat) => score - (now[beat] ?? 0));
   const gain = mean(gains);
   const standardError = Math.sqrt(mean(gains.map((each) => (each - gain) ** 2)) / (gains.length - 1));
-  const confidence = gain / Math.max(standardError, 1e-9);
-  const clear = gain >= MIN_GAIN && confidence >= MIN_CONFIDENCE;
-  return { by, score: mean(after), before: mean(now), confidence, clear };
+  const clear = gain >= MIN_GAIN && gain / Math.max(standardError, 1e-9) >= MIN_CONFIDENCE;
+  return { by, score: mean(after), before: mean(now), clear };
 }
 
 /** Distance of a value to the nearest in an ascending list, by binary search; infinite for an empty list. */

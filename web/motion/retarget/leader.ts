@@ -48,8 +48,6 @@ export interface LeaderReport {
   /** How the joints were found, and how certain that is, 0 to 1. */
   readonly mappedBy: MappedBy;
   readonly confidence: number;
-  /** Identifies the file's skeleton, see `skeletonFingerprint`. */
-  readonly skeleton: string;
   /** Name of the skeleton convention that fits the joint names. */
   readonly convention: string;
   /** Name in the file of each joint; null where it was estimated. */
@@ -303,7 +301,6 @@ export function leaderOf(
     part: source.part,
     mappedBy: map.by,
     confidence: map.confidence,
-    skeleton,
     convention: source.convention ?? map.convention,
     joints: sourceNames(source, map, body, estimated),
     estimated,

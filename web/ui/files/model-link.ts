@@ -185,8 +185,8 @@ function stateOf(status: Exclude<Status, { kind: 'manifest' | 'notice' }>): Mode
     case 'warm-up':
       return preparing('Warming up');
     case 'ready': {
-      const { name, reason, threads } = status.backend;
-      return { phase: 'ready', backend: name, reason, threads };
+      const { name, reason } = status.backend;
+      return { phase: 'ready', backend: name, reason };
     }
   }
 }

@@ -72,7 +72,6 @@ export type ModelState =
       readonly phase: 'ready';
       readonly backend: 'webgpu' | 'wasm';
       readonly reason: string;
-      readonly threads: number;
     }
   | { readonly phase: 'failed'; readonly problem: Problem };
 

@@ -12,7 +12,7 @@ it('the report is not made anew with every part of a download', () => {
     received,
     total: 9,
   });
-  const ready: ModelState = { phase: 'ready', backend: 'wasm', reason: 'Processor: no WebGPU.', threads: 2 };
+  const ready: ModelState = { phase: 'ready', backend: 'wasm', reason: 'Processor: no WebGPU.' };
   expect(made(loading(1))).toEqual(made(loading(5)));
   expect(made(ready)).not.toEqual(made(loading(9)));
 });

@@ -50,7 +50,6 @@ describe('loading the model', () => {
       phase: 'ready',
       backend: 'wasm',
       reason: backend.reason,
-      threads: 2,
     });
     attempt?.succeed(generator);
     expect(await link.generator()).toBe(generator);

@@ -145,7 +145,7 @@ describe('notes', () => {
 
   it('on the job', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
-    const ready = { phase: 'ready', backend: 'wasm', reason: '', threads: 1 } as const;
+    const ready = { phase: 'ready', backend: 'wasm', reason: '' } as const;
     const job = { fraction: 0.3 };
     expect(select.jobText({ ...job, stage: 'waiting' }, { model: loading })).toBe(
       'waiting for the model, 1.0 of 2.0 MB',
