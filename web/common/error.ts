@@ -61,7 +61,6 @@ export type ErrorCode =
   | 'webgl-missing'
   | 'webgl-lost'
   // A file to save.
-  | 'nothing-to-write'
   | 'video-unsupported'
   | 'video-failed'
   | 'picture-failed'
