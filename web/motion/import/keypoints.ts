@@ -73,7 +73,7 @@ function jointsOfKeypoints(given: Positions): Positions | null {
     ];
     row.forEach((place, joint) => writeVec(places, frame * names.length + joint, place));
   }
-  return { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places };
+  return { joints: names.map((name) => ({ name, parent: -1 })), places };
 }
 
 /**

@@ -13,7 +13,6 @@ export interface Positions {
 export const SMPL_JOINTS: readonly SourceJoint[] = SMPL22.map((name, joint) => ({
   name,
   parent: PARENTS[joint]!,
-  endSite: false,
 }));
 
 /** Things of several dancers, the leader's first; else in the order of the file. */
@@ -102,7 +101,6 @@ const SKELETONS: ReadonlyMap<
     const joints = SOMA_PARENTS.map(([name, parent]) => ({
       name,
       parent: parent === null ? -1 : names.indexOf(parent),
-      endSite: false,
     }));
     const at = [0, 1, 2, 3, 4, 5, 6, ...limbs.flatMap((first) => [0, 1, 2, 3].map((step) => first + step))];
     return [count, { joints, at }] as const;

@@ -7,7 +7,7 @@ export interface SourceJoint {
   /** Index of the parent, -1 for a joint that hangs on nothing. */
   readonly parent: number;
   /** A tip that has no motion of its own, as an end site of BVH. */
-  readonly endSite: boolean;
+  readonly endSite?: boolean | undefined;
 }
 
 /** Transforms of all joints from their parents, in some frames. */

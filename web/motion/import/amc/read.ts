@@ -102,7 +102,7 @@ export function readAmc(files: readonly FileBytes[]): MotionSource {
   refuseTooFew(frames.length);
   const tips = bones.flatMap((_, at) => (bones.some(({ parent }) => parent === at) ? [] : [at]));
   const joints: SourceJoint[] = [
-    ...bones.map(({ name, parent }) => ({ name, parent, endSite: false })),
+    ...bones.map(({ name, parent }) => ({ name, parent })),
     ...tips.map((at) => ({ name: `end of ${bones[at]!.name}`, parent: at, endSite: true })),
   ];
   const poses = (rows: readonly (ReadonlyMap<string, readonly number[]> | null)[]): LocalPoses => {

@@ -92,7 +92,7 @@ export function readC3d(bytes: Uint8Array, part: number): MotionSource {
     ),
   );
   const source = sourceOfPositions(
-    { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places },
+    { joints: names.map((name) => ({ name, parent: -1 })), places },
     {
       format: 'C3D',
       convention: 'Plug-in Gait',

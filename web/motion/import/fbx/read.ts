@@ -198,7 +198,6 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
     joints: order.map(({ id, name }) => ({
       name,
       parent: indices.get(scene.parents.get(id) ?? '') ?? -1,
-      endSite: false,
     })),
     rest: posesOf(scene, order, null, [0]),
     frames,

@@ -83,7 +83,7 @@ export function onBody(source: MotionSource, body: Gltf, bones: ReadonlyMap<stri
   return {
     ...source,
     format: 'VRMA on a VRM',
-    joints: names.map((name, joint) => ({ name, parent: parents[joint]!, endSite: false })),
+    joints: names.map((name, joint) => ({ name, parent: parents[joint]! })),
     rest: restOf(offsets),
     localPoses,
   };

@@ -81,7 +81,6 @@ export function skeletonOf({ nodes, skins }: Gltf, names: ReadonlyMap<number, st
     joints: order.map((node) => ({
       name: names.get(node) ?? (nodes[node]!.name ?? `node ${node}`).slice(0, 200),
       parent: parents[node]! < 0 ? -1 : places.get(parents[node]!)!,
-      endSite: false,
     })),
     rest: order.map((node) => transformOf(nodes[node]!)),
   };

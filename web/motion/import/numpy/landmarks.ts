@@ -62,7 +62,7 @@ export function landmarksIn(values: ArrayLike<number>, count: number): Positions
       const from = (frame * count + index) * 3;
       places.set(all.subarray(from, from + 3), (frame * at.length + to) * 3);
     });
-  const joints = at.map(({ name }) => ({ name, parent: -1, endSite: false }));
+  const joints = at.map(({ name }) => ({ name, parent: -1 }));
   if (isFlat({ joints, places })) throw noDepth();
   return { joints, places };
 }

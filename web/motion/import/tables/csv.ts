@@ -72,7 +72,7 @@ function dancersOf(columns: readonly Column[]): string[] {
 /** Joints under their names; the 22 keep the parents that they have in their own skeleton. */
 function jointsOf(names: readonly string[]): SourceJoint[] {
   const all = names.length === SMPL22.length && names.every((name, i) => name.toLowerCase() === SMPL22[i]);
-  return names.map((name, i) => ({ name, parent: all ? PARENTS[i]! : -1, endSite: false }));
+  return names.map((name, i) => ({ name, parent: all ? PARENTS[i]! : -1 }));
 }
 
 /** Frames per second from a column of seconds, or from a comment `# fps: 30`; null where neither is there. */

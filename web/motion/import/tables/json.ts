@@ -29,7 +29,7 @@ function jointsOf(names: unknown, parents: unknown): readonly SourceJoint[] {
   return names.map((name, joint) => {
     const parent: unknown = isList(parents) ? parents[joint] : -1;
     const before = typeof parent === 'number' && Number.isInteger(parent) && parent >= 0 && parent < joint;
-    return { name: String(name).slice(0, 80), parent: before ? parent : -1, endSite: false };
+    return { name: String(name).slice(0, 80), parent: before ? parent : -1 };
   });
 }
 

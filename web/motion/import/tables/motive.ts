@@ -62,7 +62,7 @@ export function readMotive(lines: readonly string[], part: number): MotionSource
   });
   const rate = Number(stated('Export Frame Rate'));
   return sourceOfPoints(
-    { joints: mine.map(({ joint }) => ({ name: joint, parent: -1, endSite: false })), places },
+    { joints: mine.map(({ joint }) => ({ name: joint, parent: -1 })), places },
     {
       format: 'CSV of Motive',
       frameRate: () => checkedRate(rate > 0 ? rate : ASSUMED_FPS),

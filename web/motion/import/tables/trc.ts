@@ -48,7 +48,7 @@ export function readTrc(text: string): MotionSource {
   });
   const rate = Number(stated('datarate'));
   return sourceOfPoints(
-    { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places },
+    { joints: names.map((name) => ({ name, parent: -1 })), places },
     {
       format: 'TRC',
       frameRate: () => checkedRate(rate > 0 ? rate : ASSUMED_FPS),

@@ -48,7 +48,6 @@ const NAMES = BONES.map(([name]) => name);
 export const MMD_JOINTS: readonly SourceJoint[] = BONES.map(([name, parent]) => ({
   name,
   parent: parent === null ? -1 : NAMES.indexOf(parent),
-  endSite: false,
 }));
 
 /** Offset of every bone from its parent. */
