@@ -1,4 +1,5 @@
 import { smoothstep } from '../motion/math/vec3';
+import { LEGS } from '../motion/skeleton/limbs';
 import {
   DynamicDrawUsage,
   InstancedBufferAttribute,
@@ -8,7 +9,7 @@ import {
   ShaderMaterial,
   Vector3,
 } from 'three';
-import { ballHeight, BOTH_FEET, footMatrix, heelHeight } from './dancer/foot-placement';
+import { ballHeight, footMatrix, heelHeight } from './dancer/foot-placement';
 import { MAX_FIGURES, type Figure } from './overlays/overlay';
 import type { Look } from './theme';
 
@@ -49,7 +50,7 @@ void main() {
 }`;
 
 export function createContactShadows(): ContactShadows {
-  const capacity = MAX_FIGURES * BOTH_FEET.length * 2;
+  const capacity = MAX_FIGURES * LEGS.length * 2;
   const plane = new PlaneGeometry(WIDTH, LENGTH).rotateX(-Math.PI / 2);
   const strength = new InstancedBufferAttribute(new Float32Array(capacity), 1).setUsage(DynamicDrawUsage);
   plane.setAttribute('strength', strength);
@@ -78,11 +79,11 @@ export function createContactShadows(): ContactShadows {
         strength.setX(count++, (1 - lifted) ** 2);
       };
       for (const { joints, motion } of figures)
-        for (const foot of BOTH_FEET) {
-          footMatrix(joints, foot, BALL, 0.003, place);
-          add(ballHeight(joints, foot));
-          footMatrix(joints, foot, HEEL, 0.003, place);
-          add(heelHeight(joints, motion.offsets, foot));
+        for (const leg of LEGS) {
+          footMatrix(joints, leg, BALL, 0.003, place);
+          add(ballHeight(joints, leg));
+          footMatrix(joints, leg, HEEL, 0.003, place);
+          add(heelHeight(joints, motion.offsets, leg));
         }
       object.count = count;
       object.instanceMatrix.needsUpdate = true;

@@ -23,8 +23,6 @@ import {
 import { gaussianFilter } from '../math/statistics';
 import { maxLimbLength, twoBoneIk } from './two-bone-ik';
 
-const WRISTS = ARMS.map(({ end }) => end);
-
 /** Distance of two wrists up to which they count as joined, and from which they do not, metres. */
 const JOINED = 0.15;
 const APART = 0.45;
@@ -97,7 +95,7 @@ function joinedShares(clip: MotionClip, partner: MotionClip, wrist: number): Flo
   const shares = Float64Array.from({ length: clip.frames }, (_, frame) => {
     const row = frame * JOINT_COUNT;
     const at = readVec(clip.positions, row + wrist);
-    const gaps = WRISTS.map((other) => distance(at, readVec(partner.positions, row + other)));
+    const gaps = ARMS.map(({ end }) => distance(at, readVec(partner.positions, row + end)));
     return 1 - smoothstep(JOINED, APART, Math.min(...gaps));
   });
   return gaussianFilter(shares, JOIN_SMOOTHING * clip.fps);

@@ -48,13 +48,13 @@ export type UnitName =
   | 'MMD units of 8 cm'
   | 'CMU units of 5.64 cm';
 
-export interface Unit {
-  readonly name: string;
+export interface Unit<Name = string> {
+  readonly name: Name;
   readonly metres: number;
 }
 
 /** Units in which bodies are found. */
-const UNITS: readonly { readonly name: UnitName; readonly metres: number }[] = [
+const UNITS: readonly Unit<UnitName>[] = [
   { name: 'metres', metres: 1 },
   // The unit of MakeHuman.
   { name: 'decimetres', metres: 0.1 },
@@ -66,7 +66,7 @@ const UNITS: readonly { readonly name: UnitName; readonly metres: number }[] = [
 ];
 
 /** Units that can be chosen: two of them are never inferred, as their bodies would look like those of others. */
-export const ALL_UNITS: readonly { readonly name: UnitName; readonly metres: number }[] = [
+export const ALL_UNITS: readonly Unit<UnitName>[] = [
   ...UNITS,
   { name: 'feet', metres: 0.3048 },
   { name: 'MMD units of 8 cm', metres: 0.08 },

@@ -21,7 +21,7 @@ export interface LocalPoses {
 /**
  * What every reader makes of a motion file: a hierarchy of named joints that moves, in the file's own unit and axes.
  *
- * Files that hold positions alone have joints without parents, whose rotations stay the identity.
+ * In files that hold positions alone no joint turns: their rotations stay the identity.
  */
 export interface MotionSource {
   /** Name of the format as the visitor knows it. */

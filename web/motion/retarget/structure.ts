@@ -30,7 +30,7 @@ interface Limb {
   readonly length: number;
 }
 
-/** Shortest share by which the shorter of two limbs may differ from the longer one. */
+/** Least ratio of the shorter of two limbs to the longer one. */
 const MIN_SYMMETRY = 0.85;
 /** Least ratio of the lengths of thigh and shin, or of upper arm and forearm. */
 const MIN_BONE_RATIO = 0.55;

@@ -1,21 +1,9 @@
 import type { Matrix4 } from 'three';
-import { FEET } from '../../motion/skeleton/skeleton';
 import { SOLE } from '../../motion/skeleton/kinematics';
-
-interface Foot {
-  readonly ankle: number;
-  readonly toe: number;
-}
-
-const [leftAnkle, rightAnkle, leftToe, rightToe] = FEET as readonly [number, number, number, number];
-/** The left foot and the right one. */
-export const BOTH_FEET: readonly Foot[] = [
-  { ankle: leftAnkle, toe: leftToe },
-  { ankle: rightAnkle, toe: rightToe },
-];
+import type { LegJoints } from '../../motion/skeleton/limbs';
 
 /** Height of the sole under the ball of a foot, metres; `joints` are 22 x 3, metres. */
-export const ballHeight = (joints: Float32Array, { toe }: Foot): number => joints[toe * 3 + 1]! - SOLE;
+export const ballHeight = (joints: Float32Array, { toe }: LegJoints): number => joints[toe * 3 + 1]! - SOLE;
 
 /**
  * Height of the sole under a heel, metres.
@@ -23,8 +11,11 @@ export const ballHeight = (joints: Float32Array, { toe }: Foot): number => joint
  * @param joints 22 x 3, metres
  * @param offsets of the skeleton at rest, 22 x 3, metres
  */
-export const heelHeight = (joints: Float32Array, offsets: Float32Array, { ankle, toe }: Foot): number =>
-  joints[ankle * 3 + 1]! + offsets[toe * 3 + 1]! - SOLE;
+export const heelHeight = (
+  joints: Float32Array,
+  offsets: Float32Array,
+  { end: ankle, toe }: LegJoints,
+): number => joints[ankle * 3 + 1]! + offsets[toe * 3 + 1]! - SOLE;
 
 /**
  * Placement of something that lies on the floor under a foot, in the direction of the foot, written to `out`.
@@ -35,7 +26,7 @@ export const heelHeight = (joints: Float32Array, offsets: Float32Array, { ankle,
  */
 export function footMatrix(
   joints: Float32Array,
-  { ankle, toe }: Foot,
+  { end: ankle, toe }: LegJoints,
   ahead: number,
   above: number,
   out: Matrix4,

@@ -8,7 +8,8 @@ import {
   ShaderMaterial,
 } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { ballHeight, BOTH_FEET, footMatrix } from '../dancer/foot-placement';
+import { LEGS } from '../../motion/skeleton/limbs';
+import { ballHeight, footMatrix } from '../dancer/foot-placement';
 import { MAX_FIGURES, type Overlay } from './overlay';
 import { contactOpacity, footContactsOf, type FootContacts } from './contact-fade';
 
@@ -42,7 +43,7 @@ void main() {
 
 /** Rings on the floor under feet in contact with it. */
 export function createContactRings(): Overlay {
-  const capacity = MAX_FIGURES * BOTH_FEET.length;
+  const capacity = MAX_FIGURES * LEGS.length;
   const plane = new PlaneGeometry(WIDTH, LENGTH).rotateX(-Math.PI / 2);
   const rgba = new InstancedBufferAttribute(new Float32Array(capacity * 4), 4).setUsage(DynamicDrawUsage);
   plane.setAttribute('rgba', rgba);
@@ -67,12 +68,12 @@ export function createContactRings(): Overlay {
       for (const { role, motion, joints } of figures) {
         const contacts = contactsByMotion.get(motion) ?? footContactsOf(motion);
         contactsByMotion.set(motion, contacts);
-        BOTH_FEET.forEach((foot, side) => {
+        LEGS.forEach((leg, side) => {
           const opacity = contactOpacity(contacts[side]!, motion.fps, seconds);
           if (opacity <= 0) return;
           // A foot in contact may be a little above the floor; its ring stays with it.
-          const height = Math.min(MAX_HEIGHT, Math.max(0, ballHeight(joints, foot)));
-          object.setMatrixAt(count, footMatrix(joints, foot, MIDDLE, 0.006 + height, place));
+          const height = Math.min(MAX_HEIGHT, Math.max(0, ballHeight(joints, leg)));
+          object.setMatrixAt(count, footMatrix(joints, leg, MIDDLE, 0.006 + height, place));
           const { r, g, b } = colours[role];
           rgba.setXYZW(count++, r, g, b, opacity);
         });

@@ -1,16 +1,12 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
+import { ARMS, LEGS } from '../../motion/skeleton/limbs';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 
 /** Distance from the wrist to the middle of the hand, metres. */
 const PALM = 0.09;
-const HANDS = [
-  [J.left_elbow, J.left_wrist],
-  [J.right_elbow, J.right_wrist],
-] as const;
-const TOES = [J.left_foot, J.right_foot] as const;
 
 /** Number of end effectors: two hands, then two feet. */
-export const END_EFFECTORS = HANDS.length + TOES.length;
+export const END_EFFECTORS = ARMS.length + LEGS.length;
 
 /**
  * Positions of the end effectors over a motion: frames x 4 x 3 metres, left hand, right hand, left foot, right foot. A
@@ -25,14 +21,14 @@ export function endEffectorTracks({
     const joint = (index: number, axis: number): number =>
       positions[(frame * JOINT_COUNT + index) * 3 + axis]!;
     const at = frame * END_EFFECTORS * 3;
-    HANDS.forEach(([elbow, wrist], hand) => {
+    ARMS.forEach(({ middle: elbow, end: wrist }, hand) => {
       const forearm = [0, 1, 2].map((axis) => joint(wrist, axis) - joint(elbow, axis));
       const share = PALM / Math.max(1e-6, Math.hypot(...forearm));
       for (let axis = 0; axis < 3; axis++)
         tracks[at + hand * 3 + axis] = joint(wrist, axis) + forearm[axis]! * share;
     });
-    TOES.forEach((foot, i) => {
-      for (let axis = 0; axis < 3; axis++) tracks[at + (HANDS.length + i) * 3 + axis] = joint(foot, axis);
+    LEGS.forEach(({ toe }, i) => {
+      for (let axis = 0; axis < 3; axis++) tracks[at + (ARMS.length + i) * 3 + axis] = joint(toe, axis);
     });
   }
   return tracks;

@@ -1,10 +1,9 @@
 import { smoothstep } from '../../motion/math/vec3';
-import { J } from '../../motion/skeleton/skeleton';
+import { ARMS } from '../../motion/skeleton/limbs';
 
 /** Distance of two wrists up to which their link is fully visible, and from which on there is none, metres. */
 const FULL = 0.5;
 const NONE = 0.62;
-const WRISTS = [J.left_wrist, J.right_wrist] as const;
 
 /** Both hands of one dancer with both of the other. */
 export const MAX_HAND_PAIRS = 2;
@@ -25,8 +24,8 @@ export interface HandPair {
  * @param reactor joints, 22 x 3, metres
  */
 export function nearHandPairs(leader: Float32Array, reactor: Float32Array): HandPair[] {
-  const pairs = WRISTS.flatMap((mine) =>
-    WRISTS.map((theirs) => ({
+  const pairs = ARMS.flatMap(({ end: mine }) =>
+    ARMS.map(({ end: theirs }) => ({
       leader: mine,
       reactor: theirs,
       distance: Math.hypot(
