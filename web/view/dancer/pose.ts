@@ -1,3 +1,4 @@
+import { Quaternion } from 'three';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 
@@ -42,24 +43,8 @@ export function blendPose(out: Pose, to: Pose, t: number): void {
 
 /** Shortest-arc spherical interpolation between the quaternions at `at` in two poses, written to `out` there. */
 function slerp(from: Float32Array, to: Float32Array, at: number, t: number, out: Float32Array): void {
-  let cos = 0;
-  for (let i = at; i < at + 4; i++) cos += from[i]! * to[i]!;
-  const sign = cos < 0 ? -1 : 1;
-  cos = Math.min(1, cos * sign);
-  let a = 1 - t;
-  let b = t;
-  if (cos < 0.9999) {
-    const angle = Math.acos(cos);
-    const sin = Math.sin(angle);
-    a = Math.sin(a * angle) / sin;
-    b = Math.sin(b * angle) / sin;
-  }
-  let norm = 0;
-  for (let i = at; i < at + 4; i++) {
-    const value = a * from[i]! + sign * b * to[i]!;
-    out[i] = value;
-    norm += value * value;
-  }
-  const unit = 1 / Math.sqrt(norm);
-  for (let i = at; i < at + 4; i++) out[i]! *= unit;
+  Quaternion.slerpFlat(plain(out), at, plain(from), at, plain(to), at, t);
 }
+
+/** three.js takes any array here, its types only plain ones. */
+const plain = (values: Float32Array): number[] => values as unknown as number[];
