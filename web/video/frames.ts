@@ -10,6 +10,7 @@ import {
 } from 'mediabunny';
 import { AppError } from '../common/error';
 import type { PictureSize } from '../common/picture';
+import { inTime } from '../model/load/in-time';
 import { type Picture, PictureCopier, pictureOf } from './pose/picture';
 
 /** Pictures a second that are read of a faster video. */
@@ -19,7 +20,7 @@ const TOLERANCE = 0.25 / MAX_RATE;
 /** Longest time to wait for a picture. */
 const MAX_WAIT_MS = 30_000;
 /** Longest video, seconds. */
-export const MAX_DURATION = 600;
+const MAX_DURATION = 600;
 
 /** A video that is open. Its times are the file's own, seconds, as a <video> element counts them. */
 export interface VideoFile {
@@ -127,7 +128,7 @@ async function* pictures(
   const copier = new PictureCopier();
   let time = Math.max(0, from);
   try {
-    for await (const sample of inTime(sink.samples(time, to))) {
+    for await (const sample of unlessStalled(sink.samples(time, to))) {
       try {
         time = sample.timestamp;
         if (time < 0 || !isRead(time)) continue;
@@ -146,18 +147,10 @@ async function* pictures(
  * @throws {AppError} `video-stalled` where nothing comes for `MAX_WAIT_MS`: WebKitGTK waits forever at the time 0 of a
  *   video that was cut without a loss
  */
-export async function* inTime<T>(decoded: AsyncIterator<T, unknown>): AsyncGenerator<T> {
+export async function* unlessStalled<T>(decoded: AsyncIterator<T, unknown>): AsyncGenerator<T> {
   try {
     for (;;) {
-      let timer: ReturnType<typeof setTimeout> | undefined;
-      const late = new Promise<never>((_, reject) => {
-        timer = setTimeout(() => {
-          reject(stalled());
-        }, MAX_WAIT_MS);
-      });
-      const next = await Promise.race([decoded.next(), late]).finally(() => {
-        clearTimeout(timer);
-      });
+      const next = await inTime(decoded.next(), MAX_WAIT_MS, stalled);
       if (next.done) return;
       yield next.value;
     }

@@ -11,7 +11,7 @@ import {
 } from 'mediabunny';
 import { afterEach, expect, test, vi } from 'vitest';
 import { openPictures } from '../../../web/video/client';
-import { inTime, openVideo, pictureChoice } from '../../../web/video/frames';
+import { unlessStalled, openVideo, pictureChoice } from '../../../web/video/frames';
 
 /** Ten pictures, 10 a second, that hold nothing; those who open the file see no difference. */
 async function emptyVideo(
@@ -103,7 +103,7 @@ test('a decoder that gives nothing more is not waited for forever, and one that 
       return Promise.resolve({ done: true, value: undefined });
     },
   };
-  const pictures = inTime(decoder);
+  const pictures = unlessStalled(decoder);
   expect(await pictures.next()).toEqual({ done: false, value: 1 });
   // A network that takes long is not the decoder's delay.
   await vi.advanceTimersByTimeAsync(60_000);

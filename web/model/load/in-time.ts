@@ -1,11 +1,15 @@
-/** The result of work. @throws when it has not come after so many milliseconds; the work itself goes on */
-export async function inTime<T>(work: Promise<T>, ms: number): Promise<T> {
+/** The result of work. @throws `late` when it has not come after so many milliseconds; the work itself goes on */
+export async function inTime<T>(
+  work: Promise<T>,
+  ms: number,
+  late: () => Error = () => new Error(`nothing for ${ms / 1000} seconds`),
+): Promise<T> {
   let timer: ReturnType<typeof setTimeout> | undefined;
-  const late = new Promise<never>((_, reject) => {
-    timer = setTimeout(() => reject(new Error(`nothing for ${ms / 1000} seconds`)), ms);
+  const timeout = new Promise<never>((_, reject) => {
+    timer = setTimeout(() => reject(late()), ms);
   });
   try {
-    return await Promise.race([work, late]);
+    return await Promise.race([work, timeout]);
   } finally {
     clearTimeout(timer);
   }
