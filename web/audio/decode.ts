@@ -71,8 +71,8 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
 }
 
 /**
- * Whether a file is a list of songs (M3U, HLS, PLS, XSPF, ASX, SMIL, DASH) instead of a song. A media element that gets one asks the
- * addresses in it.
+ * Whether a file is a list of songs (M3U, HLS, PLS, XSPF, ASX, SMIL, DASH) instead of a song. A media element that gets
+ * one asks the addresses in it.
  *
  * @param head its first bytes
  */
