@@ -35,7 +35,7 @@ function table(
 }
 
 test("a joint that was never seen is left out, and is nobody's parent", () => {
-  const joints = ['lost', 'hip', 'knee', 'ankle'].map((name, i) => ({ name, parent: i - 1, endSite: false }));
+  const joints = ['lost', 'hip', 'knee', 'ankle'].map((name, i) => ({ name, parent: i - 1 }));
   const places = Float32Array.from([NaN, NaN, NaN, 1, 1, 1, 2, 2, 2, 3, 3, 3]);
   const closed = withoutGaps({ joints, places });
   expect(closed.joints.map(({ name, parent }) => [name, parent])).toEqual([

@@ -13,7 +13,7 @@ function unnamed(body: readonly MadeJoint[], rename: (name: string, index: numbe
   const truth: string[] = [];
   const visit = (name: string | null, parent: number): void => {
     for (const joint of body.filter((one) => one.parent === name)) {
-      const index = joints.push({ name: rename(joint.name, joints.length), parent, endSite: false }) - 1;
+      const index = joints.push({ name: rename(joint.name, joints.length), parent }) - 1;
       places.push(add(parent < 0 ? ZERO : places[parent]!, joint.offset));
       truth.push(joint.name);
       if (joint.end) {

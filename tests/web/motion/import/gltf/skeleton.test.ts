@@ -33,7 +33,7 @@ test('a bone of a humanoid hangs on the next bone above it, not on what lies bet
     { translation: [0, 0.2, 0] },
   ];
   const body = fileOf(nodes, { extensions: { VRMC_vrm: { humanoid: { humanBones } } } });
-  const joints = ['hips', 'spine'].map((name, i) => ({ name, parent: i - 1, endSite: false }));
+  const joints = ['hips', 'spine'].map((name, i) => ({ name, parent: i - 1 }));
   const places = Float32Array.of(0, 2, 0, 0, 2.4, 0, 1, 2, 0, 1, 2.4, 0);
   const about = { format: 'VRMA', frameRate: () => 30, rateAssumed: false, unit: null, upAxis: 'y' } as const;
   const source = sourceOfPositions({ joints, places }, about);
