@@ -38,7 +38,8 @@ _UNITS = {
 # Leg plus trunk plus neck of an adult, and the middle and the ends of the accepted range, metres.
 _ADULT_SIZE, _MIDDLE_SIZE = 1.45, 1.18
 _MIN_SIZE, _MAX_SIZE = 0.7, 2.0
-# The same range for files that the page wrote, which are in centimetres.
+# The unit of files that the page wrote, and the same range for them.
+PAGE_UNIT = _UNITS["centimetres"]
 _OWN_MIN_SIZE, _OWN_MAX_SIZE = 0.2, 2.6
 
 # By the axis of the file that points up: the rotation (3, 3) from the file's axes to y up.
@@ -142,8 +143,8 @@ def find_unit(size: float) -> float:
 
 
 def is_page_size(size: float) -> bool:
-    """Whether a body of this size in centimetres can be one of the page's, whose dancers are 0.5 to 2.5 m high."""
-    return _OWN_MIN_SIZE <= size * _UNITS["centimetres"] <= _OWN_MAX_SIZE
+    """Whether a body of this size in `PAGE_UNIT` can be one of the page's, whose dancers are 0.5 to 2.5 m high."""
+    return _OWN_MIN_SIZE <= size * PAGE_UNIT <= _OWN_MAX_SIZE
 
 
 def _along(line: list[np.ndarray], share: float) -> np.ndarray:

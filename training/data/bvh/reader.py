@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from training.data.bvh.body import assemble, find_unit, find_up, is_page_size, read_body
+from training.data.bvh.body import PAGE_UNIT, assemble, find_unit, find_up, is_page_size, read_body
 from training.data.bvh.file import parse_bvh
 from training.data.bvh.names import is_page_file
 from training.data.bvh.rest_pose import rest_frames
@@ -106,7 +106,7 @@ def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
     sizes = [body.size() for body in bodies]
     # The page's dancers may be small, and their files state no unit.
     if all(is_page_file(file.nodes) for file in files) and all(map(is_page_size, sizes)):
-        return [assemble(body, up, 0.01) for body in bodies]
+        return [assemble(body, up, PAGE_UNIT) for body in bodies]
     if max(sizes) > _MOST_DIFFERENCE * min(sizes) > 0:
         raise ValueError(
             "the bodies of "

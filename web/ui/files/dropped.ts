@@ -6,7 +6,10 @@ import { apply, type Store } from '../store/store';
 import { isContent, unpacked } from './archive';
 import type { ModelLink } from './model-link';
 
-/** All files that were dropped, also those that somebody put into folders. To be called in the event's handler: after it the list is empty. */
+/**
+ * All files that were dropped, also those that somebody put into folders. To be called in the event's handler: after it
+ * the list is empty.
+ */
 export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry());
   const plain = [...transfer.files].map((file) => ({ path: file.name, file }));
@@ -56,7 +59,10 @@ export function modelFolder(dropped: readonly DroppedFile[]): ModelFolder | null
   return Object.fromEntries(inside.map(({ path, file }) => [path.slice(root.length), file]));
 }
 
-/** Files with those of zip archives in the place of the archives; null where one can't be unpacked, which the store reports. */
+/**
+ * Files with those of zip archives in the place of the archives; null where one can't be unpacked, which the store
+ * reports.
+ */
 export async function unpackedOrReported(
   files: readonly DroppedFile[],
   store: Store,

@@ -23,8 +23,9 @@ async function bytesOf(file: File): Promise<FileBytes> {
 }
 
 async function sameBytes(...both: readonly [Blob, Blob]): Promise<boolean> {
+  if (both[0].size !== both[1].size) return false;
   const [one, other] = await Promise.all(both.map(async (blob) => new Uint8Array(await blob.arrayBuffer())));
-  return one!.length === other!.length && one!.every((value, i) => value === other![i]);
+  return one!.every((value, i) => value === other![i]);
 }
 
 /** A source that is in memory. */
